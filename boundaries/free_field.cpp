@@ -1,0 +1,171 @@
+#include "boundaries/free_field.hpp"
+
+#include "solver/mpm/step.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mpm
+{
+namespace
+{
+constexpr double strip = 4; // cells of ghost rows beyond the face, as for frozen images
+}
+
+FreeFieldColumn::FreeFieldColumn(std::unique_ptr<Domain> owned) : domain(std::move(owned))
+{
+  const Particles& p = domain->particles;
+  ids_ = p.id;
+  std::vector<double> height(p.size());
+  for (int k = 0; k < p.size(); ++k) height[p.id[k]] = p.reference_y[k];
+  std::sort(ids_.begin(), ids_.end(), [&](auto a, auto b) { return height[a] < height[b]; });
+}
+
+void FreeFieldColumn::advance(double time, double dt)
+{
+  stress = stress_of_rows();
+  domain->time = time;
+  step(*domain, dt);
+  note_motion(dt);
+}
+
+void FreeFieldColumn::note_motion(double dt)
+{
+  const Grid& g = domain->grid;
+  first_row = g.blocks.front().y * block_cells;
+  const int count = (g.blocks.back().y + 1) * block_cells - first_row;
+  velocity.assign(count, {});
+  acceleration.assign(count, {});
+  for (int row = 0; row < count; ++row)
+  {
+    const int node = g.node(0, first_row + row);
+    if (node < 0 || g.mass[node] <= 0) continue;
+    const double vx = g.momentum_x[node] / g.mass[node], vy = g.momentum_y[node] / g.mass[node];
+    velocity[row] = {0.5 * (vx + g.velocity_x[node]), 0.5 * (vy + g.velocity_y[node])};
+    acceleration[row] = {(g.velocity_x[node] - vx) / dt, (g.velocity_y[node] - vy) / dt};
+  }
+}
+
+int FreeFieldColumn::row_near(double y) const
+{
+  const Particles& p = domain->particles;
+  int nearest = 0;
+  const auto distance = [&](int row) { return std::fabs(p.reference_y[particle_of_row(row)] - y); };
+  for (int row = 1; row < rows(); ++row)
+    if (distance(row) < distance(nearest)) nearest = row;
+  return nearest;
+}
+
+std::vector<std::array<double, 3>> FreeFieldColumn::stress_of_rows() const
+{
+  const Particles& p = domain->particles;
+  std::vector<std::array<double, 3>> result;
+  for (const std::int64_t id : ids_)
+  {
+    const int k = domain->place[id];
+    result.push_back({p.volume[k] * p.stress_xx[k], p.volume[k] * p.stress_yy[k], p.volume[k] * p.stress_xy[k]});
+  }
+  return result;
+}
+
+void FreeFieldSide::begin(const Domain& domain, double position, double bottom, double size)
+{
+  faces_ = find_faces(domain, edge_, position, size);
+  if (!column_) return;
+  static_stress_ = column_->stress_of_rows();
+  const std::vector<Face> base = find_faces(domain, Edge::bottom, bottom, size);
+  const Particles& p = domain.particles;
+  for (int id = 0; id < p.size(); ++id)
+  {
+    const int k = domain.place[id];
+    if (std::fabs(p.x[k] - position) > strip * domain.grid.spacing) continue;
+    Image ghost{};
+    ghost.parent = id;
+    ghost.offset_x = 2 * (position - p.x[k]);
+    const int row = column_->row_near(p.reference_y[k]);
+    ghost.mass = column_->domain->particles.mass[column_->particle_of_row(row)];
+    ghosts_.push_back(ghost);
+    ghost_row_.push_back(row);
+    for (Face face : base)
+      if (face.particle == id)
+      {
+        face.offset_x += ghost.offset_x;
+        ghost_base_.push_back(face);
+      }
+  }
+}
+
+std::array<double, 2> FreeFieldSide::column_velocity(int row) const
+{
+  if (!column_) return {};
+  const int k = row - column_->first_row;
+  return k >= 0 && k < static_cast<int>(column_->velocity.size()) ? column_->velocity[k] : std::array<double, 2>{};
+}
+
+void FreeFieldSide::add_forces(Domain& domain, double dt)
+{
+  Grid& g = domain.grid;
+  for_each_face_node(domain, faces_,
+                     [&](const Face& face, int node, int row, double weight)
+                     {
+                       const double cx = face.dashpot_x * weight, cy = face.dashpot_y * weight;
+                       const auto [vx, vy] = column_velocity(row);
+                       g.dashpot_x[node] += cx;
+                       g.dashpot_y[node] += cy;
+                       g.force_x[node] += cx * vx;
+                       g.force_y[node] += cy * vy;
+                     });
+  if (!column_) return;
+  add_ghost_base(domain, dt);
+  std::vector<std::array<double, 3>> stress(ghosts_.size());
+  for (std::size_t k = 0; k < ghosts_.size(); ++k)
+  {
+    const auto row = ghost_row_[k];
+    for (int c = 0; c < 3; ++c) stress[k][c] = column_->stress[row][c] - static_stress_[row][c];
+  }
+  blocks_.add_forces(domain, ghosts_, {stress, column_->acceleration, column_->first_row});
+}
+
+void FreeFieldSide::add_ghost_base(Domain& domain, double dt) const
+{
+  const auto [ux, uy] = wave_->velocity(domain.time + 0.5 * dt);
+  Grid& g = domain.grid;
+  for_each_face_node(domain, ghost_base_,
+                     [&](const Face& face, int node, int row, double weight)
+                     {
+                       if (g.mass[node] <= 0) return;
+                       const auto [vx, vy] = column_velocity(row);
+                       g.force_x[node] += face.dashpot_x * weight * (2 * ux - vx);
+                       g.force_y[node] += face.dashpot_y * weight * (2 * uy - vy);
+                     });
+}
+
+double FreeFieldSide::separation(const Domain& domain) const
+{
+  if (!column_) return 0;
+  const Particles &p = domain.particles, &q = column_->domain->particles;
+  double greatest = 0;
+  for (const Face& face : faces_)
+  {
+    const int k = domain.place[face.particle];
+    const int c = column_->particle_of_row(column_->row_near(p.reference_y[k]));
+    const double ux = p.x[k] - p.reference_x[k] - (q.x[c] - q.reference_x[c]);
+    const double uy = p.y[k] - p.reference_y[k] - (q.y[c] - q.reference_y[c]);
+    greatest = std::max(greatest, std::hypot(ux, uy));
+  }
+  return greatest;
+}
+
+void FreeFieldSide::visit_state(StateVisitor& visitor)
+{
+  visit_faces(visitor, "face_", faces_);
+  if (!column_) return;
+  visit_images(visitor, "ghost_", ghosts_);
+  visitor.integers("ghost_row", ghost_row_);
+  visit_faces(visitor, "ghost_base_", ghost_base_);
+  RecordVisitor<std::array<double, 3>> rows(visitor, "static_stress_volume_", static_stress_);
+  rows.each("xx", "N m/m", [](auto& stress) -> double& { return stress[0]; });
+  rows.each("yy", "N m/m", [](auto& stress) -> double& { return stress[1]; });
+  rows.each("xy", "N m/m", [](auto& stress) -> double& { return stress[2]; });
+}
+} // namespace mpm

@@ -1,0 +1,74 @@
+#pragma once
+
+#include "boundaries/compliant_base.hpp"
+#include "boundaries/images.hpp"
+
+namespace mpm
+{
+/// A free-field column: a domain one cell wide, and what the model's side needs of its step (METHODS section 5).
+class FreeFieldColumn
+{
+public:
+  explicit FreeFieldColumn(std::unique_ptr<Domain> domain);
+
+  /// Advances the column over the step that the model will make next, keeping the stress at the step's start.
+  void advance(double time, double dt);
+
+  /// Row of particles whose reference height is nearest to y (m).
+  int row_near(double y) const;
+  int rows() const { return static_cast<int>(ids_.size()); }
+  /// V sigma (xx, yy, xy; N m per m) of the rows as they are now.
+  std::vector<std::array<double, 3>> stress_of_rows() const;
+
+  std::unique_ptr<Domain> domain;
+  std::vector<std::array<double, 3>> stress;       ///< of the rows, at the step's start
+  std::vector<std::array<double, 2>> velocity;     ///< of the grid rows, mean of the step's start and end, m/s
+  std::vector<std::array<double, 2>> acceleration; ///< of the grid rows, m/s2
+  int first_row = 0;                               ///< grid row of the first entry
+
+  /// Where the particle of a row stands; the first row is at the base, the last one at the surface.
+  int particle_of_row(int row) const { return domain->place[ids_[row]]; }
+
+private:
+  void note_motion(double dt);
+  std::vector<std::int64_t> ids_; ///< from the bottom up
+};
+
+/// A free-field side (paper eqs. 5, 6 in the form of METHODS section 5): beyond the face stand ghost rows that carry
+/// the column's dynamic stress and inertia, and dashpots tie the face to the column node by node. Without a column
+/// it is a quiet side: dashpots against the ground at rest.
+class FreeFieldSide final : public Boundary
+{
+public:
+  /// At `edge`, left or right; `column` is null at a quiet side.
+  FreeFieldSide(Edge edge, const FreeFieldColumn* column, std::shared_ptr<const IncomingWave> wave)
+      : edge_(edge), column_(column), wave_(std::move(wave))
+  {
+  }
+  /// At the switch: the side stands at `position` (m), the base at `bottom`; `size` is the particle distance.
+  void begin(const Domain& domain, double position, double bottom, double size);
+
+  std::string_view name() const override { return edge_ == Edge::left ? "left" : "right"; }
+  bool absorbs() const override { return true; }
+  void sort(const Domain& domain) override { place_images(domain, ghosts_); }
+  void bind(const Domain& domain) override { blocks_.bind(domain, ghosts_); }
+  void add_forces(Domain& domain, double dt) override;
+  void visit_state(StateVisitor& visitor) override;
+  /// Greatest distance by which a face and its column have moved apart, m.
+  double separation(const Domain& domain) const;
+
+private:
+  void add_ghost_base(Domain& domain, double dt) const;
+  std::array<double, 2> column_velocity(int row) const;
+
+  Edge edge_;
+  const FreeFieldColumn* column_;
+  std::shared_ptr<const IncomingWave> wave_;
+  std::vector<Face> faces_;
+  std::vector<Face> ghost_base_; ///< base dashpots below the ghost rows
+  std::vector<Image> ghosts_;
+  std::vector<std::int64_t> ghost_row_;
+  std::vector<std::array<double, 3>> static_stress_; ///< of the column's rows at the switch
+  ImageBlocks blocks_;
+};
+} // namespace mpm

@@ -1,0 +1,224 @@
+#include "boundaries/images.hpp"
+
+#include "solver/mpm/chunk.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace mpm
+{
+namespace
+{
+/// Cells beyond a wall that images must fill: two are reached by a ghost node two cells out (METHODS section 3).
+constexpr double strip = 4;
+
+/// Mirrors an image (or a particle, taken as its own image) at one more wall.
+Image mirror(const Image& original, const Wall& wall, double parent_position, double wall_position)
+{
+  const double sx = wall.image_sign_x(), sy = wall.image_sign_y();
+  const double mx = wall.normal == Direction::x ? -1 : 1, my = -mx;
+  Image image = original;
+  double& offset = wall.normal == Direction::x ? image.offset_x : image.offset_y;
+  offset = 2 * wall_position - 2 * parent_position - offset;
+  image.stress_xx = sx * original.stress_xx * mx;
+  image.stress_xy = sx * original.stress_xy * my;
+  image.stress_yx = sy * original.stress_yx * mx;
+  image.stress_yy = sy * original.stress_yy * my;
+  image.weight_x = sx * original.weight_x;
+  image.weight_y = sy * original.weight_y;
+  return image;
+}
+
+struct Place
+{
+  BlockIndex block;
+  int image;
+  auto operator<=>(const Place&) const = default;
+};
+} // namespace
+
+std::vector<Image> make_images(const Domain& domain, std::span<const Wall> walls)
+{
+  std::vector<Image> result;
+  const Particles& p = domain.particles;
+  const Grid& g = domain.grid;
+  for (int id = 0; id < p.size(); ++id)
+  {
+    const int k = domain.place[id];
+    const double V = p.volume[k], m = p.mass[k];
+    std::vector<Image> family{{id, 0, 0, V * p.stress_xx[k], V * p.stress_xy[k], V * p.stress_xy[k],
+                               V * p.stress_yy[k], m * domain.gravity_x, m * domain.gravity_y, {}, 0}};
+    for (const Wall& wall : walls)
+    {
+      const double position = wall.normal == Direction::x ? p.x[k] : p.y[k];
+      const double line = (wall.normal == Direction::x ? g.origin_x : g.origin_y) + wall.line * g.spacing;
+      if (std::fabs(position - line) > strip * g.spacing) continue;
+      const std::size_t known = family.size();
+      for (std::size_t member = 0; member < known; ++member)
+        family.push_back(mirror(family[member], wall, position, line));
+    }
+    result.insert(result.end(), family.begin() + 1, family.end());
+  }
+  return result;
+}
+
+void place_images(const Domain& domain, std::vector<Image>& images)
+{
+  const Grid& g = domain.grid;
+  const auto cell = [&](double x, double origin)
+  { return static_cast<int>(std::floor((x - origin) * g.inverse_spacing())); };
+  for (Image& image : images)
+  {
+    const int parent = domain.place[image.parent];
+    const int i = cell(domain.particles.x[parent] + image.offset_x, g.origin_x);
+    const int j = cell(domain.particles.y[parent] + image.offset_y, g.origin_y);
+    image.block = {g.wrapped ? 0 : block_of(i), block_of(j)};
+  }
+}
+
+void ImageBlocks::bind(const Domain& domain, const std::vector<Image>& images)
+{
+  std::vector<Place> places;
+  for (std::size_t k = 0; k < images.size(); ++k) places.push_back({images[k].block, static_cast<int>(k)});
+  std::sort(places.begin(), places.end());
+  order_.clear();
+  homes_.clear();
+  for (auto& colour : colours_) colour.clear();
+  for (const Place& place : places)
+  {
+    const int at = static_cast<int>(order_.size());
+    if (homes_.empty() || homes_.back().block != place.block)
+    {
+      colours_[place.block.colour()].push_back(static_cast<int>(homes_.size()));
+      homes_.push_back({place.block, domain.grid.around(place.block), at, at});
+    }
+    order_.push_back(place.image);
+    homes_.back().end = at + 1;
+  }
+}
+
+std::array<double, 2> ImageBlocks::scatter(Domain& domain, const ImageHome& home, const std::vector<Image>& images,
+                                           const Extra& extra) const
+{
+  Tile force_x, force_y, mass;
+  for (Tile* tile : {&force_x, &force_y, &mass}) tile->value.fill(0);
+  std::array<double, chunk_size> x, y;
+  ChunkWeights w;
+  const Particles& p = domain.particles;
+  for (int begin = home.begin; begin < home.end; begin += chunk_size)
+  {
+    const int count = std::min(chunk_size, home.end - begin);
+    for (int k = 0; k < count; ++k)
+    {
+      const Image& image = images[order_[begin + k]];
+      const int parent = domain.place[image.parent];
+      x[k] = p.x[parent] + image.offset_x;
+      y[k] = p.y[parent] + image.offset_y;
+    }
+    find_weights(domain.grid, home.block, x.data(), y.data(), count, w);
+    for (int k = 0; k < count; ++k)
+    {
+      const Image& image = images[order_[begin + k]];
+      std::array<double, 3> more{};
+      if (!extra.stress.empty()) more = extra.stress[order_[begin + k]];
+      const double xx = image.stress_xx + more[0], yy = image.stress_yy + more[1];
+      const double xy = image.stress_xy + more[2], yx = image.stress_yx + more[2];
+      const Row wx = load_row(&w.x[4 * k]), dwx = load_row(&w.slope_x[4 * k]);
+      for (int j = 0; j < 4; ++j)
+      {
+        const double wy = w.y[4 * k + j], dwy = w.slope_y[4 * k + j];
+        const int node = w.tile[k] + j * tile_stride;
+        const auto add = [node](Tile& tile, const Row& row)
+        { store_row(&tile.value[node], load_row(&tile.value[node]) + row); };
+        add(force_x, wy * (image.weight_x * wx - xx * dwx) - (dwy * xy) * wx);
+        add(force_y, wy * (image.weight_y * wx - yx * dwx) - (dwy * yy) * wx);
+        add(mass, (wy * image.mass) * wx);
+      }
+    }
+  }
+  Grid& g = domain.grid;
+  std::array<double, 2> sum{};
+  const int row_of_tile = home.block.y * block_cells - tile_margin - extra.first_row;
+  for_each_run(g, home.around,
+               [&](int node, int place, int count)
+               {
+                 const int row = row_of_tile + place / tile_stride;
+                 std::array<double, 2> a{};
+                 if (row >= 0 && row < static_cast<int>(extra.acceleration.size())) a = extra.acceleration[row];
+                 for (int k = 0; k < count; ++k)
+                 {
+                   if (g.mass[node + k] <= 0) continue;
+                   const double fx = force_x.value[place + k], fy = force_y.value[place + k];
+                   g.force_x[node + k] += fx - mass.value[place + k] * a[0];
+                   g.force_y[node + k] += fy - mass.value[place + k] * a[1];
+                   sum[0] += fx;
+                   sum[1] += fy;
+                 }
+               });
+  return sum;
+}
+
+std::array<double, 2> ImageBlocks::add_forces(Domain& domain, const std::vector<Image>& images,
+                                              const Extra& extra) const
+{
+  std::vector<std::array<double, 2>> parts(homes_.size());
+  for (const auto& colour : colours_)
+    parallel::for_each(static_cast<int>(colour.size()), [&](int k)
+                       { parts[colour[k]] = scatter(domain, homes_[colour[k]], images, extra); });
+  std::array<double, 2> sum{};
+  for (const auto& part : parts)
+  {
+    sum[0] += part[0];
+    sum[1] += part[1];
+  }
+  return sum;
+}
+
+void FrozenImages::bind(const Domain& domain)
+{
+  blocks_.bind(domain, images_);
+  mass_ = std::accumulate(domain.particles.mass.begin(), domain.particles.mass.end(), 0.0);
+}
+
+void FrozenImages::add_forces(Domain& domain, double)
+{
+  const std::array<double, 2> now = blocks_.add_forces(domain, images_, {});
+  if (resultant_.empty()) resultant_.push_back(now);
+  const double ax = (resultant_[0][0] - now[0]) / mass_, ay = (resultant_[0][1] - now[1]) / mass_;
+  Grid& g = domain.grid;
+  parallel::for_each(static_cast<int>(g.blocks.size()),
+                     [&](int block)
+                     {
+                       for (int k = block * block_nodes; k < (block + 1) * block_nodes; ++k)
+                       {
+                         g.force_x[k] += g.mass[k] * ax;
+                         g.force_y[k] += g.mass[k] * ay;
+                       }
+                     });
+}
+
+void FrozenImages::visit_state(StateVisitor& visitor)
+{
+  visit_images(visitor, "image_", images_);
+  RecordVisitor<std::array<double, 2>> sum(visitor, "image_resultant_", resultant_);
+  sum.each("x", "N/m", [](auto& force) -> double& { return force[0]; });
+  sum.each("y", "N/m", [](auto& force) -> double& { return force[1]; });
+}
+
+void visit_images(StateVisitor& visitor, std::string prefix, std::vector<Image>& images)
+{
+  RecordVisitor<Image> list(visitor, std::move(prefix), images);
+  list.each_integer("parent", [](Image& image) -> auto& { return image.parent; });
+  list.each_integer("block_x", [](Image& image) -> auto& { return image.block.x; });
+  list.each_integer("block_y", [](Image& image) -> auto& { return image.block.y; });
+  list.member("offset_x", "m", &Image::offset_x);
+  list.member("offset_y", "m", &Image::offset_y);
+  list.member("stress_xx", "N m/m", &Image::stress_xx);
+  list.member("stress_xy", "N m/m", &Image::stress_xy);
+  list.member("stress_yx", "N m/m", &Image::stress_yx);
+  list.member("stress_yy", "N m/m", &Image::stress_yy);
+  list.member("weight_x", "N/m", &Image::weight_x);
+  list.member("weight_y", "N/m", &Image::weight_y);
+  list.member("mass", "kg/m", &Image::mass);
+}
+} // namespace mpm

@@ -1,0 +1,58 @@
+#include "boundaries/mirrored_wall.hpp"
+
+namespace mpm
+{
+namespace
+{
+constexpr int reach = 2; // node lines beyond the wall that a cubic spline of a particle inside touches
+
+/// Adds the mirror image of the ghost's value to the inside one, and makes the ghost its image again.
+inline void fold(double& inside, double& ghost, double sign)
+{
+  inside += sign * ghost;
+  ghost = sign * inside;
+}
+} // namespace
+
+void MirroredWall::bind(const Domain& domain)
+{
+  pairs_.clear();
+  on_wall_.clear();
+  const Grid& grid = domain.grid;
+  for (const BlockIndex& block : grid.blocks)
+    for (int y = 0; y < block_cells; ++y)
+      for (int x = 0; x < block_cells; ++x)
+      {
+        const int i = block.x * block_cells + x, j = block.y * block_cells + y;
+        const int depth = ((wall_.normal == Direction::x ? i : j) - wall_.line) * wall_.inward;
+        if (depth < 0 || depth > reach) continue;
+        const int mirrored = wall_.line - depth * wall_.inward;
+        const int node = grid.node(i, j);
+        const int ghost = wall_.normal == Direction::x ? grid.node(mirrored, j) : grid.node(i, mirrored);
+        if (depth == 0) on_wall_.push_back(node);
+        else if (ghost >= 0) pairs_.push_back({node, ghost});
+      }
+}
+
+void MirroredWall::constrain(Domain& domain)
+{
+  Grid& g = domain.grid;
+  const double sx = wall_.image_sign_x(), sy = wall_.image_sign_y();
+  for (const auto& [inside, ghost] : pairs_)
+  {
+    fold(g.mass[inside], g.mass[ghost], 1);
+    fold(g.momentum_x[inside], g.momentum_x[ghost], sx);
+    fold(g.momentum_y[inside], g.momentum_y[ghost], sy);
+    fold(g.force_x[inside], g.force_x[ghost], sx);
+    fold(g.force_y[inside], g.force_y[ghost], sy);
+  }
+  for (const int node : on_wall_) // the node is its own image: odd components vanish, even ones double
+  {
+    g.mass[node] *= 2;
+    g.momentum_x[node] *= 1 + sx;
+    g.momentum_y[node] *= 1 + sy;
+    g.force_x[node] *= 1 + sx;
+    g.force_y[node] *= 1 + sy;
+  }
+}
+} // namespace mpm

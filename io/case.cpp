@@ -1,0 +1,118 @@
+#include "io/case.hpp"
+
+#include "io/case_sections.hpp"
+#include "io/error.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+namespace mpm
+{
+namespace
+{
+constexpr std::string_view schema = "seismpm-case/1";
+
+std::string read_file(const std::filesystem::path& path)
+{
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  if (std::filesystem::is_directory(path) || !file || (file.peek() != EOF && !(text << file.rdbuf())))
+    throw Error(exit_code::input_missing, path.string() + ": cannot be read; give the path of a case file");
+  return text.str();
+}
+
+void check_schema(Section& root)
+{
+  const std::string given = root.text("schema");
+  if (!given.empty() && given != schema)
+    root.error("schema", "is '" + given + "'; this program reads '" + std::string(schema) + "'");
+}
+
+GridSettings read_grid(Section grid)
+{
+  GridSettings settings;
+  settings.spacing = grid.number("spacing", Dimension::length, Range::positive());
+  settings.particles_per_cell = grid.integer_or(settings.particles_per_cell, "particles_per_cell", 1, 10);
+  return settings;
+}
+
+Extent read_domain(Section domain, Problems& problems)
+{
+  Extent extent;
+  if (const YamlNode* x = domain.require("x"))
+  {
+    const Point sides = read_point(*x, problems);
+    extent.left = sides.x;
+    extent.right = sides.y;
+    if (sides.x >= sides.y) domain.error("x", "the right side must lie right of the left one");
+  }
+  extent.bottom = domain.number("bottom", Dimension::length);
+  return extent;
+}
+
+StaticSettings read_static(Section section)
+{
+  StaticSettings s;
+  s.gravity = section.number_or(s.gravity, "gravity", Dimension::acceleration, Range::not_negative());
+  s.ramp = section.number_or(s.ramp, "ramp", Dimension::time, Range::positive());
+  s.damping = section.number_or(s.damping, "damping", Dimension::none,
+                                {.lower = 0, .upper = 1, .upper_allowed = false});
+  Section until = section.optional_section("until");
+  s.until.unbalanced = until.number_or(s.until.unbalanced, "unbalanced", Dimension::none, Range::positive());
+  s.until.kinetic = until.number_or(s.until.kinetic, "kinetic", Dimension::none, Range::positive());
+  const double default_end = std::max(s.until.at_most, 2 * s.ramp);
+  s.until.at_most = until.number_or(default_end, "at_most", Dimension::time, Range::positive());
+  if (s.until.at_most < s.ramp)
+    until.error("at_most", "ends before the ramp does; give more than static.ramp");
+  return s;
+}
+
+double read_safety(Section time_step)
+{
+  constexpr double stable = 0.78; // METHODS section 7: an isolated particle of the cubic kernel
+  const double safety =
+      time_step.number_or(0.5, "safety", Dimension::none, {.lower = 0, .lower_allowed = false, .upper = 1});
+  if (safety > stable)
+    time_step.error("safety",
+                    "is above 0.78, where loose particles at the surface become unstable; 0.5 is the "
+                    "default, 0.7 the fast limit");
+  return safety;
+}
+
+void read_parts(Case& scene, const YamlNode& tree, Problems& problems)
+{
+  const std::filesystem::path folder = scene.path.parent_path();
+  Section root(&tree, problems);
+  check_schema(root);
+  scene.name = root.text_or(scene.path.stem().string(), "name");
+  scene.grid = read_grid(root.section("grid"));
+  scene.domain = read_domain(root.section("domain"), problems);
+  scene.surfaces = read_surfaces(root, folder, problems);
+  scene.materials = read_materials(root, scene.grid.spacing, problems);
+  scene.regions = read_regions(root, scene.surfaces, scene.materials, problems);
+  scene.statics = read_static(root.optional_section("static"));
+  scene.seismic = read_seismic(root, folder, problems);
+  scene.safety = read_safety(root.optional_section("time_step"));
+  scene.output = read_output(root, scene.materials, problems);
+}
+} // namespace
+
+Case load_case(const std::filesystem::path& path, const std::vector<std::string>& overrides)
+{
+  Case scene;
+  scene.path = path;
+  scene.text = read_file(path);
+  scene.overrides = overrides;
+  Problems problems;
+  YamlNode tree = parse_yaml(scene.text, path.string(), problems);
+  if (tree.kind == YamlNode::Kind::empty) problems.throw_if_any(); // not YAML: nothing more can be said
+  for (const std::string& text : overrides) apply_override(tree, text, problems);
+  scene.settings = flattened(tree);
+  read_parts(scene, tree, problems);
+  problems.throw_if_any();
+  check_geometry(scene, tree, problems);
+  problems.throw_if_any();
+  return scene;
+}
+} // namespace mpm

@@ -1,0 +1,183 @@
+#pragma once
+// A case file (YAML) as the programs use it: SI units, everything checked at the door. The keys are the
+// contract of the README's chapter "Case file".
+
+#include "boundaries/ground_motion.hpp"
+#include "io/record_reader.hpp"
+#include "io/surface.hpp"
+#include "materials/material.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace mpm
+{
+/// `grid`: cell size in m, particles per cell and direction.
+struct GridSettings
+{
+  double spacing = NAN;
+  int particles_per_cell = 3;
+
+  double particle_spacing() const { return spacing / particles_per_cell; } ///< m
+};
+
+/// `domain`, in m; its width is a whole number of cells. It is open above.
+struct Extent
+{
+  double left = NAN, right = NAN;
+  double bottom = NAN;
+
+  double width() const { return right - left; }
+};
+
+/// One of `regions`: the ground between two surfaces, or between the domain's bottom and one.
+struct Region
+{
+  int material = -1;        ///< place in Case::materials
+  std::optional<int> above; ///< place in Case::surfaces; empty: the domain's bottom
+  int below = -1;           ///< place in Case::surfaces
+  double left = -std::numeric_limits<double>::infinity(); ///< m, to the nearest particle column
+  double right = std::numeric_limits<double>::infinity(); ///< m, likewise
+};
+
+/// A stretch of a vertical line that one region has, in m.
+struct Layer
+{
+  double bottom, top;
+  int region; ///< place in Case::regions
+};
+
+/// When the static stage has converged (METHODS section 3); checked after the ramp.
+struct Convergence
+{
+  double unbalanced = 1e-6; ///< sum of |nodal force| over sum of |internal| + |external|
+  double kinetic = 1e-10;   ///< kinetic energy over the potential energy of gravity
+  double at_most = 60;      ///< s of the model's time
+};
+
+/// `static`: gravity grows over `ramp` and the ground settles under local damping.
+struct StaticSettings
+{
+  double gravity = 9.81; ///< m/s2, downwards; 0: no gravity and nothing to settle
+  double ramp = 10;      ///< s
+  double damping = 0.75; ///< fraction of the unbalanced force, in [0, 1)
+  Convergence until;
+};
+
+enum class BaseKind
+{
+  compliant,
+  fixed,
+};
+enum class SideKind
+{
+  free_field,
+  quiet,
+  roller,
+};
+enum class MotionEnd
+{
+  never,
+  time,
+  self_driven,
+};
+
+/// Where one component of the ground motion comes from.
+struct MotionSource
+{
+  RecordSource record; ///< an empty file: the program's own synthetic motion (`built_in`)
+  double scale = 1;
+
+  bool built_in() const { return record.file.empty(); }
+};
+
+/// `seismic.motion`.
+struct MotionSettings
+{
+  std::optional<MotionSource> horizontal = MotionSource{};
+  std::optional<MotionSource> vertical;
+  MotionProcessing processing; ///< `scale` is each source's own
+  MotionEnd end = MotionEnd::never;
+  double end_time = std::numeric_limits<double>::infinity(); ///< s, where `end` is time
+};
+
+/// `seismic`. The kinds of base and sides rule the free-field columns of the static stage too.
+struct SeismicSettings
+{
+  double duration = 0; ///< s; 0: the case has no seismic section
+  BaseKind base = BaseKind::compliant;
+  SideKind sides = SideKind::free_field;
+  MotionSettings motion;
+};
+
+struct FrameSettings
+{
+  double every = 0.5;              ///< s
+  std::vector<std::string> fields; ///< out of frame_fields()
+};
+
+struct GaugePoint
+{
+  std::string name;
+  double x = NAN, y = NAN; ///< m
+};
+
+struct GaugeSettings
+{
+  double every = 0.01; ///< s
+  std::vector<GaugePoint> points;
+};
+
+struct CheckpointSettings
+{
+  double every = 600; ///< s of wall time
+  int keep = 2;
+};
+
+struct OutputSettings
+{
+  FrameSettings frames;
+  GaugeSettings gauges;
+  CheckpointSettings checkpoint;
+};
+
+struct Case
+{
+  std::filesystem::path path;
+  std::string text;                   ///< the file as it stands
+  std::vector<std::string> overrides; ///< `key.path=value`, as given by --set
+  /// Every key given and the text of its value ("grid.spacing", "0.25 m"), overrides applied, in the file's
+  /// order; elements of lists as "domain.x[0]".
+  std::vector<std::pair<std::string, std::string>> settings;
+  std::vector<std::string> warnings; ///< for the log
+
+  std::string name;
+  GridSettings grid;
+  Extent domain;
+  std::vector<Surface> surfaces;
+  std::vector<Region> regions; ///< the first that holds a point has it
+  std::vector<Material> materials;
+  StaticSettings statics;
+  SeismicSettings seismic;
+  double safety = 0.5; ///< Courant number dt c_p / h, see METHODS section 7
+  OutputSettings output;
+
+  /// The ground over [from, to] from the bottom upwards, the surfaces at their mean heights there.
+  std::vector<Layer> layers(double from, double to) const;
+  /// Height of the ground at x in m; the domain's bottom where there is none.
+  double ground_height(double x) const;
+};
+
+/// Fields that a frame can hold: those of every particle, and the laws' history variables.
+std::vector<std::string> frame_fields();
+
+/// Reads and checks a case. `overrides` are `key.path=value` and win over the file. `Error`: input_missing
+/// when the file cannot be read; bad_input with every problem of the file, one a line, as
+/// `FILE:LINE:COLUMN: key.path: what; what is allowed; did you mean ...?`.
+Case load_case(const std::filesystem::path& path, const std::vector<std::string>& overrides = {});
+} // namespace mpm

@@ -1,0 +1,201 @@
+#include "io/case_sections.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
+namespace mpm
+{
+namespace
+{
+constexpr double rounding = 1e-9; // of a cell
+
+/// A length for people.
+std::string metres(double value)
+{
+  std::array<char, 32> text;
+  std::snprintf(text.data(), text.size(), "%.5g m", value);
+  return text.data();
+}
+
+const YamlNode* at(const YamlNode& tree, std::initializer_list<std::string_view> keys)
+{
+  const YamlNode* node = &tree;
+  for (const std::string_view key : keys)
+    if (node) node = node->child(key);
+  return node;
+}
+
+void check_width(const Case& scene, const YamlNode& tree, Problems& problems)
+{
+  const double cells = scene.domain.width() / scene.grid.spacing;
+  if (std::abs(cells - std::round(cells)) <= rounding * std::max(1.0, cells) && cells > 0.5) return;
+  const YamlNode& x = *at(tree, {"domain", "x"});
+  const double whole = std::max(1.0, std::round(cells)) * scene.grid.spacing;
+  problems.add(x.place, x.path,
+               "is " + metres(scene.domain.width()) + " wide; must be a whole number of cells of " +
+                   metres(scene.grid.spacing) + ", as " + metres(whole));
+}
+
+void check_gauges(const Case& scene, const YamlNode& tree, Problems& problems)
+{
+  const double half = scene.grid.spacing / 2;
+  for (const GaugePoint& gauge : scene.output.gauges.points)
+  {
+    const YamlNode& node = *at(tree, {"output", "gauges", "points", gauge.name});
+    if (gauge.x < scene.domain.left - half || gauge.x > scene.domain.right + half)
+      problems.add(node.place, node.path,
+                   "lies beside the domain, which reaches from " + metres(scene.domain.left) + " to " +
+                       metres(scene.domain.right));
+    else if (const double ground = scene.ground_height(gauge.x);
+             gauge.y > ground + half || gauge.y < scene.domain.bottom - half)
+      problems.add(node.place, node.path,
+                   "lies outside the ground, which reaches here from " + metres(scene.domain.bottom) +
+                       " to " + metres(ground));
+  }
+}
+
+/// Refuses a case without ground; warns of hollows and of regions that hold nothing.
+void check_regions(Case& scene, const YamlNode& tree, Problems& problems)
+{
+  std::vector<bool> used(scene.regions.size(), false);
+  double hollow_x = NAN;
+  const double h = scene.grid.spacing;
+  for (double x = scene.domain.left; x < scene.domain.right - h / 2; x += h)
+  {
+    double reached = scene.domain.bottom;
+    for (const Layer& layer : scene.layers(x, x + h))
+    {
+      used[layer.region] = true;
+      if (layer.bottom > reached + rounding * h && std::isnan(hollow_x)) hollow_x = x + h / 2;
+      reached = layer.top;
+    }
+  }
+  const YamlNode& regions = *at(tree, {"regions"});
+  if (std::find(used.begin(), used.end(), true) == used.end())
+    return problems.add(regions.place, regions.path,
+                        "hold no ground above the domain's bottom and within its sides");
+  for (std::size_t i = 0; i < used.size(); ++i)
+    if (!used[i])
+      scene.warnings.push_back(regions.children[i].place.text() + ": " + regions.children[i].path +
+                               ": holds no ground; the regions before it may have taken it");
+  if (!std::isnan(hollow_x))
+    scene.warnings.push_back(regions.place.text() +
+                             ": regions: leave a hollow in the ground at x = " + metres(hollow_x));
+}
+
+bool bounds_a_region(const Case& scene, int surface)
+{
+  return std::any_of(scene.regions.begin(), scene.regions.end(),
+                     [&](const Region& r) { return r.below == surface || r.above == surface; });
+}
+
+double variation(const Case& scene, const Surface& surface, double from, double to)
+{
+  double low = INFINITY, high = -INFINITY;
+  for (int i = 0; i <= 100; ++i)
+  {
+    const double y = std::max(scene.domain.bottom, surface.height(from + (to - from) * i / 100));
+    low = std::min(low, y);
+    high = std::max(high, y);
+  }
+  return high - low;
+}
+
+/// A free-field column stands for level layers: METHODS section 5 asks for one slope height of them.
+void warn_of_slopes_at_sides(Case& scene)
+{
+  if (scene.seismic.sides != SideKind::free_field) return;
+  double low = INFINITY, high = -INFINITY;
+  for (int i = 0; i <= 1000; ++i)
+  {
+    const double y = scene.ground_height(scene.domain.left + scene.domain.width() * i / 1000);
+    low = std::min(low, y);
+    high = std::max(high, y);
+  }
+  const double strip = std::min(high - low, scene.domain.width() / 2);
+  const std::array sides{std::pair{"left", scene.domain.left},
+                         std::pair{"right", scene.domain.right - strip}};
+  for (int i = 0; i < static_cast<int>(scene.surfaces.size()); ++i)
+    for (const auto& [side, from] : sides)
+      if (const double change = variation(scene, scene.surfaces[i], from, from + strip);
+          bounds_a_region(scene, i) && change > 0.2 * scene.grid.spacing)
+        scene.warnings.push_back("surfaces." + scene.surfaces[i].name + ": rises or falls by " +
+                                 metres(change) + " within " + metres(strip) + " of the " + side +
+                                 " side; a free-field column wants level layers over one slope height there");
+}
+
+void warn_of_materials(Case& scene)
+{
+  for (const Material& material : scene.materials)
+    if (material.elastic().poisson > 0.49)
+      scene.warnings.push_back(
+          "materials." + material.name + ".poisson_ratio: " + number_text(material.elastic().poisson) +
+          " is above 0.49: many more steps, and as much more numerical damping of shear waves");
+}
+
+void warn_of_short_profiles(Case& scene)
+{
+  for (const Surface& surface : scene.surfaces)
+  {
+    const Polyline* line = std::get_if<Polyline>(&surface.shape);
+    if (!line || line->x.size() < 2) continue;
+    if (line->x.front() > scene.domain.left || line->x.back() < scene.domain.right)
+      scene.warnings.push_back("surfaces." + surface.name + ": is known from " + metres(line->x.front()) +
+                               " to " + metres(line->x.back()) + ", and taken as level beyond");
+  }
+}
+} // namespace
+
+std::vector<Layer> Case::layers(double from, double to) const
+{
+  const double middle = (from + to) / 2;
+  std::vector<double> height;
+  for (const Surface& surface : surfaces)
+    height.push_back(
+        std::max(domain.bottom, from < to ? surface.mean_height(from, to) : surface.height(from)));
+  std::vector<double> cut = height;
+  cut.push_back(domain.bottom);
+  std::sort(cut.begin(), cut.end());
+
+  const auto holds = [&](const Region& r, double low, double high)
+  {
+    return r.left <= middle && middle < r.right && (!r.above || height[*r.above] <= low) &&
+           height[r.below] >= high;
+  };
+  std::vector<Layer> layers;
+  for (std::size_t k = 1; k < cut.size(); ++k)
+  {
+    const double low = cut[k - 1], high = cut[k];
+    if (high - low <= rounding * grid.spacing) continue;
+    const auto first =
+        std::find_if(regions.begin(), regions.end(), [&](const Region& r) { return holds(r, low, high); });
+    if (first == regions.end()) continue;
+    const int region = static_cast<int>(first - regions.begin());
+    if (!layers.empty() && layers.back().region == region &&
+        low - layers.back().top <= rounding * grid.spacing)
+      layers.back().top = high;
+    else
+      layers.push_back({low, high, region});
+  }
+  return layers;
+}
+
+double Case::ground_height(double x) const
+{
+  const double inside = std::clamp(x, domain.left, std::nextafter(domain.right, domain.left));
+  const std::vector<Layer> column = layers(inside, inside);
+  return column.empty() ? domain.bottom : column.back().top;
+}
+
+void check_geometry(Case& scene, const YamlNode& tree, Problems& problems)
+{
+  check_width(scene, tree, problems);
+  check_regions(scene, tree, problems);
+  if (problems.count() > 0) return;
+  check_gauges(scene, tree, problems);
+  warn_of_slopes_at_sides(scene);
+  warn_of_materials(scene);
+  warn_of_short_profiles(scene);
+}
+} // namespace mpm

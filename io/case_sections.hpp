@@ -1,0 +1,19 @@
+#pragma once
+// The parts that load_case is made of; nobody else needs them.
+
+#include "io/case.hpp"
+#include "io/yaml_checker.hpp"
+
+namespace mpm
+{
+std::vector<Surface> read_surfaces(Section& root, const std::filesystem::path& folder, Problems& problems);
+std::vector<Region> read_regions(Section& root, const std::vector<Surface>& surfaces,
+                                 const std::vector<Material>& materials, Problems& problems);
+std::vector<Material> read_materials(Section& root, double spacing, Problems& problems);
+SeismicSettings read_seismic(Section& root, const std::filesystem::path& folder, Problems& problems);
+OutputSettings read_output(Section& root, const std::vector<Material>& materials, Problems& problems);
+
+/// What only shows when the parts are put together: grid, gauges and regions that do not fit, with the place
+/// of the key at fault. Adds warnings to the case.
+void check_geometry(Case& scene, const YamlNode& tree, Problems& problems);
+} // namespace mpm

@@ -1,0 +1,116 @@
+#include "io/case_sections.hpp"
+
+namespace mpm
+{
+namespace
+{
+std::string beside(const std::filesystem::path& folder, const std::string& file)
+{
+  return file.empty() ? file : (folder / file).lexically_normal().string();
+}
+
+/// The record of one direction: `built_in` or a map.
+MotionSource read_source(const YamlNode& node, const std::filesystem::path& folder, Problems& problems)
+{
+  MotionSource source;
+  if (node.kind == YamlNode::Kind::scalar)
+  {
+    if (node.text != "built_in")
+      problems.add(node.place, node.path,
+                   "is '" + node.text + "'; must be built_in, or a map as {file: " +
+                       (node.text.empty() ? "records/a.AT2" : node.text) + "}");
+    return source;
+  }
+  Section section(&node, problems);
+  source.record.file = beside(folder, section.text("file"));
+  const std::vector<std::string> formats{"auto", "peer", "column", "two_column"};
+  source.record.format = formats[section.choice_or(0, "format", formats)];
+  source.record.dt = section.number_or(NAN, "dt", Dimension::time, Range::positive());
+  const std::vector<std::string> units{"g", "gal", "m/s2", "cm/s2", "m/s", "cm/s", "m", "cm"};
+  if (section.find("unit")) source.record.unit = units[section.choice("unit", units)];
+  const std::vector<std::string> quantities{"acceleration", "velocity", "displacement"};
+  if (section.find("quantity"))
+    source.record.quantity = static_cast<Quantity>(section.choice("quantity", quantities));
+  source.scale = section.number_or(1, "scale", Dimension::none);
+  return source;
+}
+
+std::optional<MotionSource> read_direction(Section& motion, std::string_view key,
+                                           const std::filesystem::path& folder, Problems& problems)
+{
+  const YamlNode* node = motion.find(key);
+  if (!node) return std::nullopt;
+  return read_source(*node, folder, problems);
+}
+
+RecordedAs read_recorded_as(Section& motion, Problems& problems)
+{
+  const YamlNode* node = motion.require("recorded_as");
+  if (!node) return RecordedAs::outcrop;
+  if (node->kind == YamlNode::Kind::scalar && node->text == "within")
+  {
+    problems.add(node->place, node->path, "'within' is not possible: " + std::string(why_not_within));
+    return RecordedAs::outcrop;
+  }
+  return read_choice(*node, {"outcrop", "upgoing"}, problems) == 1 ? RecordedAs::upgoing
+                                                                   : RecordedAs::outcrop;
+}
+
+/// `never`, `self_driven` or a time.
+void read_end(Section& motion, MotionSettings& settings, Problems& problems)
+{
+  const YamlNode* node = motion.find("end");
+  if (!node || node->text == "never") return;
+  if (node->text == "self_driven")
+  {
+    settings.end = MotionEnd::self_driven;
+    return;
+  }
+  if (node->kind == YamlNode::Kind::scalar && parse_quantity(node->text, Dimension::time).problem.empty())
+  {
+    settings.end = MotionEnd::time;
+    settings.end_time = read_number(*node, Dimension::time, Range::positive(), problems);
+    return;
+  }
+  problems.add(node->place, node->path,
+               "must be never, self_driven or a time as '12.5 s'" +
+                   suggestion(node->text, {"never", "self_driven"}));
+}
+
+MotionSettings read_motion(Section motion, const std::filesystem::path& folder, Problems& problems)
+{
+  MotionSettings settings;
+  if (!motion.given()) return settings;
+  settings.processing.recorded_as = read_recorded_as(motion, problems);
+  settings.horizontal = read_direction(motion, "horizontal", folder, problems);
+  settings.vertical = read_direction(motion, "vertical", folder, problems);
+  if (!settings.horizontal && !settings.vertical)
+    motion.error("", "has no record; give horizontal, vertical or both (built_in is the program's own)");
+  const std::vector<std::string> baselines{"none", "linear", "quadratic", "cubic"};
+  MotionProcessing& processing = settings.processing;
+  processing.baseline =
+      static_cast<Baseline>(motion.choice_or(static_cast<int>(processing.baseline), "baseline", baselines));
+  processing.taper = motion.number_or(processing.taper, "taper", Dimension::time, Range::not_negative());
+  processing.high_pass =
+      motion.number_or(processing.high_pass, "high_pass", Dimension::frequency, Range::not_negative());
+  read_end(motion, settings, problems);
+  return settings;
+}
+} // namespace
+
+SeismicSettings read_seismic(Section& root, const std::filesystem::path& folder, Problems& problems)
+{
+  SeismicSettings settings;
+  Section section = root.optional_section("seismic");
+  if (!section.given()) return settings;
+  settings.duration = section.number("duration", Dimension::time, Range::positive());
+  {
+    Section base = section.optional_section("base");
+    settings.base = static_cast<BaseKind>(base.choice_or(0, "kind", {"compliant", "fixed"}));
+    Section sides = section.optional_section("sides");
+    settings.sides = static_cast<SideKind>(sides.choice_or(0, "kind", {"free_field", "quiet", "roller"}));
+  }
+  settings.motion = read_motion(section.optional_section("motion"), folder, problems);
+  return settings;
+}
+} // namespace mpm

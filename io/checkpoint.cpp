@@ -1,0 +1,174 @@
+#include "io/checkpoint.hpp"
+
+#include <fmt/format.h>
+
+namespace mpm
+{
+namespace
+{
+class Saver final : public StateVisitor
+{
+public:
+  explicit Saver(h5::Group group) : group_(std::move(group)) {}
+  bool loading() const override { return false; }
+  void doubles(std::string_view name, std::string_view unit, std::vector<double>& values) override
+  {
+    group_.write(std::string(name), std::span<const double>(values), {values.size()}, unit);
+  }
+  void integers(std::string_view name, std::vector<std::int64_t>& values) override
+  {
+    group_.write(std::string(name), std::span<const std::int64_t>(values), {values.size()}, "1");
+  }
+
+private:
+  h5::Group group_;
+};
+
+class Loader final : public StateVisitor
+{
+public:
+  explicit Loader(h5::Group group) : group_(std::move(group)) {}
+  bool loading() const override { return true; }
+  void doubles(std::string_view name, std::string_view, std::vector<double>& values) override
+  {
+    values = group_.read_doubles(std::string(name));
+  }
+  void integers(std::string_view name, std::vector<std::int64_t>& values) override
+  {
+    values = group_.read_ints(std::string(name));
+  }
+
+private:
+  h5::Group group_;
+};
+
+void save_particles(h5::Group group, const Particles& p)
+{
+  const std::size_t count = p.size();
+  for (const ParticleField& field : particle_fields)
+  {
+    const std::size_t components = field.components;
+    std::vector<double> values(count * components);
+    for (std::size_t c = 0; c < components; ++c)
+      for (std::size_t k = 0; k < count; ++k) values[k * components + c] = (p.*field.data[c])[k];
+    std::vector<hsize_t> shape{count};
+    if (components > 1) shape.push_back(components);
+    group.write(std::string(field.name), std::span<const double>(values), shape, field.unit);
+  }
+  group.write("id", std::span<const std::int64_t>(p.id), {count}, "1");
+}
+
+void save_materials(h5::Group group, const Domain& domain)
+{
+  for (std::size_t m = 0; m < domain.materials.size(); ++m)
+  {
+    const Material& material = domain.materials[m];
+    h5::Group own = group.create_group(material.name);
+    own.attribute("model", material.model());
+    own.attribute("begin", std::int64_t(domain.material_begin[m]));
+    own.attribute("end", std::int64_t(domain.material_begin[m + 1]));
+    for (std::size_t k = 0; k < material.state.size(); ++k)
+      own.write(std::string(material.state_fields()[k].name), std::span<const double>(material.state[k]),
+                {material.state[k].size()}, material.state_fields()[k].unit);
+  }
+}
+
+/// Which particles belong to which block: (block x, block y, material, begin, end) a line.
+void save_homes(h5::Group group, const Domain& domain)
+{
+  std::vector<std::int64_t> table;
+  for (const Home& home : domain.homes)
+    for (const Range& r : home.ranges) table.insert(table.end(), {home.block.x, home.block.y, r.material, r.begin, r.end});
+  group.attribute("spacing", domain.grid.spacing);
+  group.attribute("origin", std::vector<double>{domain.grid.origin_x, domain.grid.origin_y});
+  group.attribute("drift", domain.drift);
+  group.write("homes", std::span<const std::int64_t>(table), {table.size() / 5, 5}, "1");
+}
+
+void load_homes(const h5::Group& group, Domain& domain)
+{
+  domain.homes.clear();
+  const std::vector<std::int64_t> table = group.read_ints("homes");
+  for (std::size_t k = 0; k < table.size(); k += 5)
+  {
+    const BlockIndex block{static_cast<int>(table[k]), static_cast<int>(table[k + 1])};
+    if (domain.homes.empty() || domain.homes.back().block != block) domain.homes.push_back({block, {}, {}});
+    domain.homes.back().ranges.push_back(
+        {static_cast<int>(table[k + 2]), static_cast<int>(table[k + 3]), static_cast<int>(table[k + 4])});
+  }
+  domain.drift = group.attribute_double("drift");
+}
+
+void visit_tracers(StateVisitor& visitor, std::vector<Tracer>& tracers)
+{
+  RecordVisitor<Tracer> list(visitor, "", tracers);
+  list.member("x", "m", &Tracer::x);
+  list.member("y", "m", &Tracer::y);
+  list.member("reference_x", "m", &Tracer::reference_x);
+  list.member("reference_y", "m", &Tracer::reference_y);
+  list.member("velocity_x", "m/s", &Tracer::velocity_x);
+  list.member("velocity_y", "m/s", &Tracer::velocity_y);
+}
+} // namespace
+
+void save_domain(h5::Group& group, Domain& domain)
+{
+  save_particles(group.create_group("particles"), domain.particles);
+  save_materials(group.create_group("materials"), domain);
+  save_homes(group.create_group("grid"), domain);
+  for (const auto& boundary : domain.boundaries)
+  {
+    if (boundary->name().empty()) continue;
+    Saver saver(group.create_group("boundary/" + std::string(boundary->name())));
+    boundary->visit_state(saver);
+  }
+  Saver saver(group.create_group("tracers"));
+  visit_tracers(saver, domain.tracers);
+}
+
+void load_particles(const h5::Group& group, Domain& domain)
+{
+  Particles& p = domain.particles;
+  const h5::Group particles = group.open_group("particles");
+  const std::size_t count = p.size();
+  p.id = particles.read_ints("id");
+  if (p.id.size() != count)
+    throw Error(exit_code::bad_input,
+                fmt::format("{}: holds {} particles where the case makes {}; use the case that it was made with",
+                            particles.where("id"), p.id.size(), count));
+  for (const ParticleField& field : particle_fields)
+  {
+    const std::vector<double> values = particles.read_doubles(std::string(field.name));
+    if (values.size() != count * field.components)
+      throw Error(exit_code::bad_input, particles.where(std::string(field.name)) + ": has the wrong size");
+    for (int c = 0; c < field.components; ++c)
+      for (std::size_t k = 0; k < count; ++k) (p.*field.data[c])[k] = values[k * field.components + c];
+  }
+  for (std::size_t m = 0; m < domain.materials.size(); ++m)
+  {
+    Material& material = domain.materials[m];
+    const h5::Group own = group.open_group("materials/" + material.name);
+    if (own.attribute_string("model") != material.model() || own.attribute_int("begin") != domain.material_begin[m] ||
+        own.attribute_int("end") != domain.material_begin[m + 1])
+      throw Error(exit_code::bad_input, own.where() + ": is another material than the case's; use the case that the "
+                                                      "checkpoint was made with");
+    for (std::size_t k = 0; k < material.state.size(); ++k)
+      material.state[k] = own.read_doubles(std::string(material.state_fields()[k].name));
+  }
+  load_homes(group.open_group("grid"), domain);
+  rebuild(domain);
+}
+
+void load_domain(const h5::Group& group, Domain& domain)
+{
+  for (const auto& boundary : domain.boundaries)
+  {
+    if (boundary->name().empty()) continue;
+    Loader loader(group.open_group("boundary/" + std::string(boundary->name())));
+    boundary->visit_state(loader);
+  }
+  Loader loader(group.open_group("tracers"));
+  visit_tracers(loader, domain.tracers);
+  load_particles(group, domain);
+}
+} // namespace mpm

@@ -1,0 +1,142 @@
+#pragma once
+// Messages to stderr and DIR/log.txt, and the line that tells how far a run is.
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace spdlog
+{
+class logger;
+}
+
+namespace mpm
+{
+enum class Verbosity
+{
+  quiet,   ///< warnings and errors
+  normal,  ///< messages and progress too
+  verbose, ///< details too
+};
+
+/// Plain text on stderr, as much as the verbosity lets through; everything in the log file. What is said
+/// before the file is open is kept for it.
+class Log
+{
+public:
+  explicit Log(Verbosity = Verbosity::normal);
+  Log(const Log&) = delete;
+  Log& operator=(const Log&) = delete;
+  ~Log();
+
+  /// Appends to the file from here on, so that it tells all runs of a folder.
+  void open(const std::filesystem::path& file);
+
+  template <class... Args>
+  void detail(fmt::format_string<Args...> format, Args&&... args)
+  {
+    say(Level::detail, fmt::format(format, std::forward<Args>(args)...));
+  }
+  template <class... Args>
+  void info(fmt::format_string<Args...> format, Args&&... args)
+  {
+    say(Level::info, fmt::format(format, std::forward<Args>(args)...));
+  }
+  template <class... Args>
+  void warn(fmt::format_string<Args...> format, Args&&... args)
+  {
+    say(Level::warning, fmt::format(format, std::forward<Args>(args)...));
+  }
+  template <class... Args>
+  void error(fmt::format_string<Args...> format, Args&&... args)
+  {
+    say(Level::error, fmt::format(format, std::forward<Args>(args)...));
+  }
+  /// All warnings so far, for the summary.
+  const std::vector<std::string>& warnings() const { return warnings_; }
+
+  /// True when stderr is a terminal on which one line may be redrawn.
+  bool live() const { return live_; }
+  void redraw(const std::string& line);
+  /// Leaves the live line where it is, and goes on below.
+  void keep_line();
+  /// To the file, and to stderr unless a live line shows it there.
+  void progress(const std::string& line);
+
+private:
+  enum class Level
+  {
+    detail,
+    info,
+    warning,
+    error,
+  };
+  struct Kept
+  {
+    std::chrono::system_clock::time_point when;
+    std::string text;
+  };
+  void say(Level, const std::string& text);
+  void to_screen(const std::string& text);
+  void to_file(const std::string& text);
+
+  Verbosity verbosity_;
+  bool live_;
+  bool line_shown_ = false;
+  std::shared_ptr<spdlog::logger> screen_;
+  std::shared_ptr<spdlog::logger> file_;
+  std::vector<Kept> kept_;
+  std::vector<std::string> warnings_;
+};
+
+/// What does not change while a stage runs.
+struct StageFacts
+{
+  std::string name; ///< "static", "seismic"
+  std::int64_t particles = 0;
+  int threads = 1;
+  std::int64_t first_step = 0; ///< where this process begins: not 0 after a resume
+  double first_fraction = 0;
+};
+
+struct Moment
+{
+  double time = 0;     ///< simulated, s
+  double fraction = 0; ///< of the stage done; NaN when it cannot be known
+  std::int64_t step = 0;
+  double kinetic = 0; ///< J
+  double speed = 0;   ///< largest of any particle, m/s
+};
+
+/// One live line on a terminal; plain lines now and then otherwise and in the log file.
+class Progress
+{
+public:
+  Progress(Log&, StageFacts);
+  /// Ask before gathering a `Moment`: true twice a second on a terminal, every 10 s otherwise.
+  bool due() const;
+  void update(const Moment&);
+  /// The last line, whatever the time.
+  void finish(const Moment&);
+
+private:
+  using Clock = std::chrono::steady_clock;
+  std::string line(const Moment&, Clock::time_point now);
+
+  Log& log_;
+  StageFacts stage_;
+  Clock::time_point start_, drawn_, printed_;
+  std::int64_t last_step_;
+};
+
+/// "1 h 12 min"
+std::string duration_text(double seconds);
+/// The text of a progress line; NaN for what is not known.
+std::string progress_line(const StageFacts&, const Moment&, double steps_per_second, double seconds_left);
+} // namespace mpm

@@ -1,0 +1,31 @@
+#pragma once
+// Reads acceleration, velocity and displacement records as archives and spreadsheets write them.
+
+#include "boundaries/ground_motion.hpp"
+
+#include <cmath>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace mpm
+{
+/// A record as a case names it. What the file says itself may be left out; what both say has to agree.
+struct RecordSource
+{
+  std::string file;
+  /// auto, peer (a header line with NPTS and DT), column (one value a line) or two_column (time in s, value).
+  std::string format = "auto";
+  double dt = NAN;                  ///< s; NaN: from the file
+  std::string unit;                 ///< g, gal, m/s2, cm/s2, m/s, cm/s, m or cm; empty: from the file
+  std::optional<Quantity> quantity; ///< empty: that of the unit
+};
+
+/// Reads source.file. Throws Error: input_missing where the file cannot be read, bad_input where it is no
+/// record.
+Record read_record(const RecordSource& source);
+
+/// Reads a record from text, e.g. one kept in a result file; source.file serves the messages and, by its
+/// extension (.AT2, .VT2, .DT2), the quantity of a PEER record.
+Record parse_record(std::string_view text, const RecordSource& source);
+} // namespace mpm

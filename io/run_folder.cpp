@@ -1,0 +1,242 @@
+#include "io/run_folder.hpp"
+#include "io/hdf5.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <openssl/evp.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <fstream>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <sys/file.h>
+#include <unistd.h>
+
+namespace mpm
+{
+namespace fs = std::filesystem;
+namespace
+{
+/// PREFIX, digits, SUFFIX: the number; nothing for another name.
+std::optional<std::int64_t> number_in(std::string_view name, std::string_view prefix, std::string_view suffix)
+{
+  if (!name.starts_with(prefix) || !name.ends_with(suffix)) return {};
+  if (name.size() <= prefix.size() + suffix.size()) return {};
+  const std::string_view digits = name.substr(prefix.size(), name.size() - prefix.size() - suffix.size());
+  if (digits.size() > 18 || digits.find_first_not_of("0123456789") != digits.npos) return {};
+  return std::stoll(std::string(digits));
+}
+
+std::optional<std::int64_t> checkpoint_step(const std::string& name)
+{
+  return number_in(name, "checkpoint-", ".h5");
+}
+
+/// Is this a name under which our programs write?
+bool is_output(const std::string& name)
+{
+  static constexpr std::array fixed = {"final.h5", "history.h5",   "frames.hdf.series",
+                                       "log.txt",  "summary.json", "identity.json"};
+  return std::ranges::find(fixed, name) != fixed.end() || checkpoint_step(name) ||
+         number_in(name, "frame-", ".hdf");
+}
+
+/// Half-written: what a killed write leaves.
+bool is_debris(const std::string& name)
+{
+  return name.ends_with(".tmp") && is_output(fs::path(name).stem());
+}
+
+std::vector<fs::path> files_in(const fs::path& folder, const std::function<bool(const std::string&)>& wanted)
+{
+  std::vector<fs::path> found;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (wanted(entry.path().filename())) found.push_back(entry.path());
+  return found;
+}
+
+[[noreturn]] void taken(const fs::path& folder, const std::string& what)
+{
+  throw Error(exit_code::folder_taken, fmt::format("{}: {}", folder.string(), what));
+}
+
+[[noreturn]] void cannot_write(const fs::path& path, const std::string& reason)
+{
+  throw Error(exit_code::write_failed,
+              fmt::format("{}: cannot write: {}; choose another --out", path.string(), reason));
+}
+
+RunFolder::Identity read_identity(const fs::path& path)
+{
+  try
+  {
+    std::ifstream file(path);
+    RunFolder::Identity identity;
+    const auto stored = nlohmann::ordered_json::parse(file);
+    for (const auto& [key, value] : stored.items()) identity.emplace_back(key, value.get<std::string>());
+    return identity;
+  }
+  catch (const nlohmann::json::exception&)
+  {
+    taken(path.parent_path(),
+          "its identity.json cannot be read; start anew with --fresh or choose another --out");
+  }
+}
+
+void write_identity(const fs::path& path, const RunFolder::Identity& identity)
+{
+  auto stored = nlohmann::ordered_json::object();
+  for (const auto& [key, value] : identity) stored[key] = value;
+  write_text_atomically(path, stored.dump(1) + "\n");
+}
+
+const std::string* value_of(const RunFolder::Identity& identity, const std::string& key)
+{
+  for (const auto& [name, value] : identity)
+    if (name == key) return &value;
+  return nullptr;
+}
+
+/// The first difference in words; empty when there is none.
+std::string difference(const RunFolder::Identity& here, const RunFolder::Identity& wanted)
+{
+  for (const auto& [key, value] : wanted)
+  {
+    const std::string* old = value_of(here, key);
+    if (!old) return fmt::format("{} is {}, and not set in the run it holds", key, value);
+    if (*old != value) return fmt::format("{} is {}, but {} in the run it holds", key, value, *old);
+  }
+  for (const auto& [key, value] : here)
+    if (!value_of(wanted, key)) return fmt::format("{} is not set, but {} in the run it holds", key, value);
+  return {};
+}
+
+/// Feeds one EVP digest.
+class Sha256
+{
+public:
+  Sha256() { EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr); }
+  void add(std::string_view bytes) { EVP_DigestUpdate(context_.get(), bytes.data(), bytes.size()); }
+  std::string hexadecimal()
+  {
+    std::array<unsigned char, EVP_MAX_MD_SIZE> digest;
+    unsigned length = 0;
+    EVP_DigestFinal_ex(context_.get(), digest.data(), &length);
+    return fmt::format("{:02x}", fmt::join(digest.begin(), digest.begin() + length, ""));
+  }
+
+private:
+  std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_{EVP_MD_CTX_new(), &EVP_MD_CTX_free};
+};
+} // namespace
+
+std::string sha256(std::string_view text)
+{
+  Sha256 digest;
+  digest.add(text);
+  return digest.hexadecimal();
+}
+
+std::string sha256_file(const fs::path& path)
+{
+  std::ifstream file(path, std::ios::binary);
+  Sha256 digest;
+  std::vector<char> buffer(1 << 20);
+  while (file.read(buffer.data(), std::streamsize(buffer.size())) || file.gcount() > 0)
+    digest.add({buffer.data(), std::size_t(file.gcount())});
+  if (!file.eof())
+    throw Error(exit_code::input_missing,
+                path.string() + ": cannot be read; check the path and its permissions");
+  return digest.hexadecimal();
+}
+
+std::string checkpoint_name(std::int64_t step)
+{
+  return fmt::format("checkpoint-{:09}.h5", step);
+}
+
+RunFolder::RunFolder(fs::path path, const Identity& identity, bool fresh) : path_(std::move(path))
+{
+  std::error_code error;
+  fs::create_directories(path_, error);
+  if (error || !fs::is_directory(path_)) cannot_write(path_, error ? error.message() : "it is not a folder");
+  try
+  {
+    lock();
+    if (fresh)
+      for (const auto& file : files_in(path_, is_output)) fs::remove(file);
+    check_identity(identity);
+    for (const auto& file : files_in(path_, is_debris)) fs::remove(file);
+  }
+  catch (const fs::filesystem_error& failure)
+  {
+    ::close(lock_);
+    cannot_write(path_, failure.code().message());
+  }
+  catch (...)
+  {
+    ::close(lock_);
+    throw;
+  }
+}
+
+RunFolder::~RunFolder()
+{
+  ::close(lock_);
+}
+
+void RunFolder::lock()
+{
+  const fs::path file = path_ / ".lock";
+  lock_ = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  if (lock_ < 0) cannot_write(file, std::strerror(errno));
+  if (::flock(lock_, LOCK_EX | LOCK_NB) != 0)
+  {
+    if (errno != EWOULDBLOCK) return; // a file system without locks
+    std::string holder;
+    std::getline(std::ifstream(file), holder);
+    taken(path_, fmt::format("another run holds it ({}); wait for it or choose another --out", holder));
+  }
+  locked_ = true;
+  const std::string holder = fmt::format("host {}, pid {}, since {}\n", host_name(), ::getpid(), utc_now());
+  if (::ftruncate(lock_, 0) != 0 || ::write(lock_, holder.data(), holder.size()) != ssize_t(holder.size()))
+    cannot_write(file, std::strerror(errno));
+}
+
+void RunFolder::check_identity(const Identity& identity)
+{
+  const fs::path file = path_ / "identity.json";
+  if (fs::exists(file))
+  {
+    const std::string what = difference(read_identity(file), identity);
+    if (!what.empty()) taken(path_, what + "; start anew with --fresh or choose another --out");
+    resumed_ = true;
+    return;
+  }
+  const auto strangers = files_in(path_, is_output);
+  if (!strangers.empty())
+    taken(path_, fmt::format("it holds {} of an unknown run; start anew with --fresh or choose another --out",
+                             strangers.front().filename().string()));
+  write_identity(file, identity);
+}
+
+std::vector<fs::path> RunFolder::checkpoints() const
+{
+  auto found = files_in(path_, [](const std::string& name) { return checkpoint_step(name).has_value(); });
+  std::ranges::sort(found, std::greater{},
+                    [](const fs::path& path) { return *checkpoint_step(path.filename()); });
+  return found;
+}
+
+void RunFolder::prune(std::size_t keep) const
+{
+  const auto all = checkpoints();
+  std::error_code ignored; // one checkpoint too many harms nobody
+  for (std::size_t i = keep; i < all.size(); ++i) fs::remove(all[i], ignored);
+}
+} // namespace mpm

@@ -1,0 +1,261 @@
+#include "io/yaml_tree.hpp"
+
+#include "io/error.hpp"
+
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <charconv>
+#include <numeric>
+#include <tuple>
+
+namespace mpm
+{
+namespace
+{
+constexpr int deepest = 20;         // levels; an alias that contains itself has no end
+constexpr int most_nodes = 100'000; // aliases of aliases multiply
+
+/// Turns yaml-cpp's nodes into ours.
+struct Builder
+{
+  std::string source;
+  bool has_lines;
+  Problems& problems;
+  int nodes = 0;
+  bool too_much = false;
+
+  Place place_of(const YAML::Mark& mark) const
+  {
+    if (!has_lines || mark.is_null()) return {source, 0, 0};
+    return {source, mark.line + 1, mark.column + 1};
+  }
+
+  YamlNode build(const YAML::Node& from, const std::string& path, int depth)
+  {
+    YamlNode node;
+    node.path = path;
+    node.place = place_of(from.Mark());
+    if (depth > deepest || ++nodes > most_nodes)
+    {
+      if (!too_much) problems.add(node.place, path, "is nested too deeply or is too large");
+      too_much = true;
+      return node;
+    }
+    if (from.IsScalar())
+    {
+      node.kind = YamlNode::Kind::scalar;
+      node.text = from.Scalar();
+    }
+    else if (from.IsSequence())
+    {
+      node.kind = YamlNode::Kind::list;
+      for (std::size_t i = 0; i < from.size() && !too_much; ++i)
+        node.children.push_back(build(from[i], path + "[" + std::to_string(i) + "]", depth + 1));
+    }
+    else if (from.IsMap())
+    {
+      node.kind = YamlNode::Kind::map;
+      for (const auto& member : from) // yaml-cpp keeps duplicates here
+      {
+        if (too_much) break;
+        add_member(node, member.first, member.second, depth);
+      }
+    }
+    return node;
+  }
+
+  void add_member(YamlNode& map, const YAML::Node& key, const YAML::Node& value, int depth)
+  {
+    const Place place = place_of(key.Mark());
+    if (!key.IsScalar()) return problems.add(place, map.path, "has a key that is not a plain word");
+    const std::string& name = key.Scalar();
+    const std::string path = map.path.empty() ? name : map.path + "." + name;
+    if (const YamlNode* first = map.child(name))
+      return problems.add(place, path,
+                          "is given twice" +
+                              (first->key_place.line
+                                   ? ", first in line " + std::to_string(first->key_place.line)
+                                   : std::string()) +
+                              "; leave one");
+    YamlNode child = build(value, path, depth + 1);
+    child.key = name;
+    child.key_place = place;
+    if (child.place.line == 0) child.place = place;
+    map.children.push_back(std::move(child));
+  }
+};
+
+/// "a.b[0].c" and "a.b.0.c" as a, b, 0, c.
+std::vector<std::string> parts_of(std::string_view path)
+{
+  std::vector<std::string> parts(1);
+  for (const char c : path)
+  {
+    if (c == '.' || c == '[')
+      parts.emplace_back();
+    else if (c != ']')
+      parts.back() += c;
+  }
+  return parts;
+}
+
+/// The child of `node` on an override's way, made if it is a missing key; null (and a problem) if impossible.
+YamlNode* step_down(YamlNode& node, const std::string& part, const Place& place, Problems& problems)
+{
+  const std::string here = node.path.empty() ? "the case" : node.path;
+  if (node.kind == YamlNode::Kind::empty) node.kind = YamlNode::Kind::map;
+  if (node.kind == YamlNode::Kind::scalar)
+    return problems.add(place, node.path, "is a single value and has no '" + part + "' below it"), nullptr;
+  if (node.kind == YamlNode::Kind::list)
+  {
+    std::size_t index = 0;
+    const auto [end, failure] = std::from_chars(part.data(), part.data() + part.size(), index);
+    if (failure == std::errc{} && end == part.data() + part.size() && index < node.children.size())
+      return &node.children[index];
+    problems.add(place, node.path,
+                 "is a list of " + std::to_string(node.children.size()) + ", counted from 0; it has no '" +
+                     part + "'");
+    return nullptr;
+  }
+  for (YamlNode& child : node.children)
+    if (child.key == part) return &child;
+  YamlNode& made = node.children.emplace_back();
+  made.key = part;
+  made.path = node.path.empty() ? part : node.path + "." + part;
+  made.place = made.key_place = place;
+  return &made;
+}
+
+int edit_distance(std::string_view a, std::string_view b)
+{
+  std::vector<int> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), 0);
+  for (std::size_t i = 1; i <= a.size(); ++i)
+  {
+    int diagonal = row[0];
+    row[0] = static_cast<int>(i);
+    for (std::size_t j = 1; j <= b.size(); ++j)
+    {
+      const int changed = diagonal + (a[i - 1] != b[j - 1]);
+      diagonal = row[j];
+      row[j] = std::min({changed, row[j] + 1, row[j - 1] + 1});
+    }
+  }
+  return row.back();
+}
+} // namespace
+
+std::string Place::text() const
+{
+  if (line == 0) return source;
+  return source + ":" + std::to_string(line) + ":" + std::to_string(column);
+}
+
+void Problems::add(const Place& place, const std::string& path, const std::string& what)
+{
+  add_missing(place, path, what);
+  only_missing_ = false;
+}
+
+void Problems::add_missing(const Place& place, const std::string& path, const std::string& what)
+{
+  entries_.push_back({place, place.text() + ": " + (path.empty() ? "" : path + ": ") + what});
+}
+
+void Problems::throw_if_any() const
+{
+  if (entries_.empty()) return;
+  std::vector<Entry> sorted = entries_;
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const Entry& a, const Entry& b) {
+                     return std::tie(a.place.line, a.place.column) < std::tie(b.place.line, b.place.column);
+                   });
+  std::string all;
+  for (const Entry& entry : sorted) all += (all.empty() ? "" : "\n") + entry.message;
+  throw Error(only_missing_ ? exit_code::input_missing : exit_code::bad_input, all);
+}
+
+const YamlNode* YamlNode::child(std::string_view wanted) const
+{
+  if (kind != Kind::map) return nullptr;
+  for (const YamlNode& node : children)
+    if (node.key == wanted) return &node;
+  return nullptr;
+}
+
+YamlNode parse_yaml(const std::string& text, const std::string& file, Problems& problems)
+{
+  try
+  {
+    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
+    if (documents.size() > 1) problems.add({file, 0, 0}, "", "holds several YAML documents; leave one");
+    if (!documents.empty()) return Builder{file, true, problems}.build(documents[0], "", 0);
+  }
+  catch (const YAML::Exception& error)
+  {
+    const Place place =
+        error.mark.is_null() ? Place{file, 0, 0} : Place{file, error.mark.line + 1, error.mark.column + 1};
+    problems.add(place, "", "is not YAML: " + error.msg);
+  }
+  YamlNode nothing;
+  nothing.place = {file, 1, 1};
+  return nothing;
+}
+
+void apply_override(YamlNode& root, const std::string& override_text, Problems& problems)
+{
+  const Place place{"--set " + override_text, 0, 0};
+  const auto equals = override_text.find('=');
+  const std::string path = override_text.substr(0, equals);
+  const std::vector<std::string> parts = parts_of(path);
+  if (equals == std::string::npos || std::find(parts.begin(), parts.end(), "") != parts.end())
+    return problems.add(place, "", "is not of the form key.path=value");
+  YAML::Node value;
+  try
+  {
+    value = YAML::Load(override_text.substr(equals + 1));
+  }
+  catch (const YAML::Exception& error)
+  {
+    return problems.add(place, path, "the value is not YAML: " + error.msg);
+  }
+  YamlNode* node = &root;
+  for (const std::string& part : parts)
+    if (!(node = step_down(*node, part, place, problems))) return;
+  const std::string key = node->key;
+  *node = Builder{place.source, false, problems}.build(value, node->path, static_cast<int>(parts.size()));
+  node->key = key;
+  node->key_place = place;
+}
+
+std::vector<std::pair<std::string, std::string>> flattened(const YamlNode& root)
+{
+  if (root.kind == YamlNode::Kind::scalar) return {{root.path, root.text}};
+  std::vector<std::pair<std::string, std::string>> all;
+  for (const YamlNode& child : root.children)
+    for (auto& setting : flattened(child)) all.push_back(std::move(setting));
+  return all;
+}
+
+std::string nearest(std::string_view wrong, const std::vector<std::string>& names)
+{
+  std::string best;
+  int least = std::max(1, static_cast<int>(wrong.size()) / 3) + 1;
+  for (const std::string& name : names)
+  {
+    const bool part = wrong.size() > 2 && (name.starts_with(wrong) || wrong.starts_with(name));
+    const int distance = part ? 1 : edit_distance(wrong, name);
+    if (distance >= least) continue;
+    least = distance;
+    best = name;
+  }
+  return best;
+}
+
+std::string suggestion(std::string_view wrong, const std::vector<std::string>& names)
+{
+  const std::string best = nearest(wrong, names);
+  return best.empty() ? "" : "; did you mean '" + best + "'?";
+}
+} // namespace mpm

@@ -1,0 +1,81 @@
+#pragma once
+// A YAML file as a plain tree that knows where each key and value stands, with the command line's overrides
+// put in. Nothing else includes yaml-cpp.
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace mpm
+{
+/// Where a key or value stands.
+struct Place
+{
+  std::string source; ///< the file, or "--set key.path=value"
+  int line = 0;       ///< from 1; 0: the source has no lines
+  int column = 0;
+
+  std::string text() const; ///< FILE:LINE:COLUMN
+};
+
+/// All that is wrong with an input, collected so that its user sees everything at once.
+class Problems
+{
+public:
+  /// `path` is the key path; empty for the file as a whole.
+  void add(const Place& place, const std::string& path, const std::string& what);
+  /// A file named by the input that cannot be read.
+  void add_missing(const Place& place, const std::string& path, const std::string& what);
+  std::size_t count() const { return entries_.size(); }
+  /// Throws `Error` with all messages in the file's order, if there are any: input_missing when nothing is
+  /// wrong but missing files, else bad_input.
+  void throw_if_any() const;
+
+private:
+  struct Entry
+  {
+    Place place;
+    std::string message;
+  };
+  std::vector<Entry> entries_;
+  bool only_missing_ = true;
+};
+
+/// A value with its place. A map's children carry their keys, a list's do not.
+struct YamlNode
+{
+  enum class Kind
+  {
+    empty,
+    scalar,
+    list,
+    map,
+  };
+  Kind kind = Kind::empty;
+  std::string key;
+  std::string path; ///< "materials.soil.density", "domain.x[0]"
+  std::string text; ///< of a scalar
+  Place place, key_place;
+  std::vector<YamlNode> children;
+
+  const YamlNode* child(std::string_view key) const;
+};
+
+/// Reads YAML text; duplicate keys and broken syntax go to `problems`. `file` serves the messages.
+YamlNode parse_yaml(const std::string& text, const std::string& file, Problems& problems);
+
+/// Puts `key.path=value` into the tree: keys are made as needed, elements of lists ("domain.x[0]" or
+/// "domain.x.0") must exist. The value is YAML itself.
+void apply_override(YamlNode& root, const std::string& override_text, Problems& problems);
+
+/// Every scalar of the tree: key path and text, in order.
+std::vector<std::pair<std::string, std::string>> flattened(const YamlNode& root);
+
+/// The name most like `wrong`, empty if none is.
+std::string nearest(std::string_view wrong, const std::vector<std::string>& names);
+/// "; did you mean 'x'?" or nothing.
+std::string suggestion(std::string_view wrong, const std::vector<std::string>& names);
+} // namespace mpm

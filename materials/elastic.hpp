@@ -1,0 +1,48 @@
+#pragma once
+
+#include "materials/parameter.hpp"
+#include "materials/plane_strain.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+namespace mpm
+{
+/// Isotropic linear elasticity in plane strain: density in kg/m3, Young's modulus in Pa.
+struct Elastic
+{
+  static constexpr std::string_view model = "elastic";
+  double density = NAN;
+  double young = NAN;
+  double poisson = NAN;
+
+  static constexpr auto parameters()
+  {
+    using P = Parameter<Elastic>;
+    return std::array{
+        P{"density", Dimension::density, &Elastic::density, 0, false},
+        P{"young_modulus", Dimension::stress, &Elastic::young, 0, false},
+        P{"poisson_ratio", Dimension::none, &Elastic::poisson, -1, false, 0.5, false},
+    };
+  }
+  static constexpr std::array<StateField, 0> state_fields() { return {}; }
+
+  /// What is wrong with the parameters taken together, as `key: what` (empty: nothing); fixes derived values.
+  /// `spacing` is the grid's, in m.
+  std::string resolve(double /*spacing*/) { return {}; }
+
+  double shear_modulus() const { return young / (2 * (1 + poisson)); }
+  double lame() const { return young * poisson / ((1 + poisson) * (1 - 2 * poisson)); }
+  double p_modulus() const { return lame() + 2 * shear_modulus(); } ///< M = K + 4G/3
+  double shear_speed() const { return std::sqrt(shear_modulus() / density); }
+  double pressure_speed() const { return std::sqrt(p_modulus() / density); }
+
+  /// Stress update of a chunk; the law has no state.
+  void update(const StressBatch& s, double* const* /*state*/, bool /*plastic*/) const
+  {
+    add_elastic_stress(s, lame(), shear_modulus());
+  }
+};
+} // namespace mpm

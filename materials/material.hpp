@@ -1,0 +1,43 @@
+#pragma once
+
+#include "materials/elastic.hpp"
+#include "materials/von_mises.hpp"
+
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace mpm
+{
+/// Every constitutive law there is. A new one is one header and one name here.
+using Law = std::variant<Elastic, VonMises>;
+
+/// A named material of a scene: its law, and the law's history variables over the material's particles
+/// (state[field][k], k counted from the material's first particle).
+struct Material
+{
+  std::string name;
+  Law law;
+  std::vector<std::vector<double>> state;
+
+  const Elastic& elastic() const
+  {
+    return std::visit([](const auto& l) -> const Elastic& { return l; }, law);
+  }
+  std::string_view model() const
+  {
+    return std::visit([](const auto& l) { return l.model; }, law);
+  }
+  std::span<const StateField> state_fields() const
+  {
+    return std::visit(
+        [](const auto& l) -> std::span<const StateField>
+        {
+          static constexpr auto fields = std::decay_t<decltype(l)>::state_fields();
+          return {fields.data(), fields.size()};
+        },
+        law);
+  }
+};
+} // namespace mpm

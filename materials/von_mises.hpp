@@ -1,0 +1,102 @@
+#pragma once
+
+#include "materials/elastic.hpp"
+
+namespace mpm
+{
+/// Elasticity with a von Mises yield surface q = sqrt(3 J2) that softens linearly from the peak to the
+/// residual strength over the plastic strain delta_r / (sqrt(3) l), l the band width (METHODS section 6;
+/// paper Table 1, eq. 8). Strengths are Mises stresses in Pa: the undrained shear strength is q / sqrt(3).
+struct VonMises : Elastic
+{
+  static constexpr std::string_view model = "von_mises";
+  double peak = NAN;
+  double residual = NAN;              ///< left out: perfectly plastic
+  double softening_displacement = NAN; ///< delta_r in m
+  double band_width = NAN;            ///< l in m, by default 1.45 grid spacings
+  double softening_strain = NAN;      ///< plastic strain at which the residual strength is reached
+
+  static constexpr auto parameters()
+  {
+    using P = Parameter<VonMises>;
+    constexpr double inf = std::numeric_limits<double>::infinity();
+    return std::array{
+        P{"density", Dimension::density, &VonMises::density, 0, false},
+        P{"young_modulus", Dimension::stress, &VonMises::young, 0, false},
+        P{"poisson_ratio", Dimension::none, &VonMises::poisson, -1, false, 0.5, false},
+        P{"strength.peak", Dimension::stress, &VonMises::peak, 0, false},
+        P{"strength.residual", Dimension::stress, &VonMises::residual, 0, true, inf, true, false},
+        P{"softening.displacement", Dimension::length, &VonMises::softening_displacement, 0, false, inf,
+          true, false},
+        P{"softening.band_width", Dimension::length, &VonMises::band_width, 0, false, inf, true, false},
+        P{"softening.strain", Dimension::none, &VonMises::softening_strain, 0, false, inf, true, false},
+    };
+  }
+  static constexpr std::array<StateField, 1> state_fields()
+  {
+    return {{{"plastic_strain", "1", "accumulated equivalent plastic strain"}}};
+  }
+
+  std::string resolve(double spacing)
+  {
+    if (std::isnan(residual)) residual = peak;
+    if (residual > peak) return "strength.residual: is above strength.peak; give at most the peak";
+    const bool by_displacement = !std::isnan(softening_displacement);
+    const bool by_strain = !std::isnan(softening_strain);
+    if (residual == peak)
+    {
+      softening_strain = 1; // never used: the slope is zero
+      return {};
+    }
+    if (by_displacement == by_strain && !(by_displacement && resolved_))
+      return "softening: give either 'displacement' (a length) or 'strain', since the residual strength is "
+             "below the peak";
+    if (by_displacement)
+    {
+      if (std::isnan(band_width)) band_width = 1.45 * spacing;
+      softening_strain = softening_displacement / (std::sqrt(3.0) * band_width);
+      resolved_ = true;
+    }
+    if (softening_strain <= (peak - residual) / (3 * shear_modulus()))
+      return "softening: is so steep that the stress would snap back (residual strain " +
+             std::to_string(softening_strain) + " <= (peak - residual) / 3G = " +
+             std::to_string((peak - residual) / (3 * shear_modulus())) +
+             "); use a longer displacement or a smaller band width";
+    return {};
+  }
+
+  /// Small-step radial return, exact for linear softening; state[0] is the plastic strain.
+  void update(const StressBatch& s, double* const* state, bool plastic) const
+  {
+    add_elastic_stress(s, lame(), shear_modulus());
+    if (plastic) return_to_yield_surface(s, state[0]);
+  }
+
+private:
+  bool resolved_ = false;
+
+  void return_to_yield_surface(const StressBatch& s, double* __restrict strain) const
+  {
+    const double stiffness = 3 * shear_modulus(), top = peak, bottom = residual;
+    const double slope = (bottom - top) / softening_strain;
+    const double softening_rate = 1 / (stiffness + slope), residual_rate = 1 / stiffness;
+#pragma GCC ivdep
+    for (int i = 0; i < s.count; ++i)
+    {
+      const double p = (s.xx[i] + s.yy[i] + s.zz[i]) / 3;
+      const double a = s.xx[i] - p, b = s.yy[i] - p, c = s.zz[i] - p, d = s.xy[i];
+      const double q = std::sqrt(1.5 * (a * a + b * b + c * c + 2 * d * d));
+      // The two roots of the return equation, softening and residual; the smaller one is admissible.
+      const double soft = (q - (top + slope * strain[i])) * softening_rate;
+      const double flat = (q - bottom) * residual_rate;
+      const double step = std::max(0.0, std::min(soft, flat));
+      const double scale = 1 - stiffness * step / std::max(q, 1e-300);
+      strain[i] += step;
+      s.xx[i] = p + a * scale;
+      s.yy[i] = p + b * scale;
+      s.zz[i] = p + c * scale;
+      s.xy[i] = d * scale;
+    }
+  }
+};
+} // namespace mpm

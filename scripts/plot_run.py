@@ -1,0 +1,71 @@
+"""Draws the results of a run: scripts/plot-run RUN_FOLDER [--times t1,t2,...] [--out DIR].
+
+Whatever the folder holds is drawn, whatever it lacks is said. Exit 66 when there is nothing to draw.
+SI units, x right, y up, tension positive.
+"""
+import argparse
+import sys
+from pathlib import Path
+
+import plot_common
+import plot_histories
+import plot_sections
+
+
+def time_list(given):
+    """Times (s) of a comma-separated list."""
+    return [float(part) for part in given.split(",")]
+
+
+class Parser(argparse.ArgumentParser):
+    """Ends with 64, as the solver does, on a wrong command line."""
+
+    def error(self, message):
+        self.exit(64, f"{self.prog}: {message}; see {self.prog} --help\n")
+
+
+def parse_arguments():
+    """The command line."""
+    parser = Parser(prog="plot-run", description="Draws the results of a static or seismic run.")
+    parser.add_argument("folder", type=Path, metavar="RUN_FOLDER", help="output folder of mpm-static or mpm-seismic")
+    parser.add_argument("--times", type=time_list, metavar="t1,t2,...",
+                        help="times (s) of the sections, the nearest frames are drawn; default six evenly spread")
+    parser.add_argument("--out", type=Path, metavar="DIR", help="default RUN_FOLDER/pictures")
+    return parser.parse_args()
+
+
+def is_static(folder, summary):
+    """Whether the folder is that of a static stage: as its summary says, else when it holds no history."""
+    if "stage" in summary:
+        return summary["stage"] == "static"
+    return not (folder / "history.h5").exists()
+
+
+def main():
+    """Draws every picture the folder has the data for; returns the exit code."""
+    arguments = parse_arguments()
+    folder, out = arguments.folder, arguments.out or arguments.folder / "pictures"
+    if not folder.is_dir():
+        print(f"plot-run: {folder}: no such folder", file=sys.stderr)
+        return 66
+    out.mkdir(parents=True, exist_ok=True)
+    summary = plot_common.read_summary(folder)
+    pictures = [("plastic_strain.png", plot_sections.plastic_strain, (arguments.times,)),
+                ("displacement.png", plot_sections.displacement, (arguments.times,))]
+    if is_static(folder, summary):
+        pictures += [("static_stress.png", plot_sections.static_stress, ())]
+    else:
+        pictures += [("histories.png", plot_histories.histories, ()), ("motion.png", plot_histories.motion, ()),
+                     ("slide.png", plot_histories.slide, ())]
+    drawn = 0
+    for name, draw, extra in pictures:
+        try:
+            draw(folder, out, plot_common.heading_of(folder, summary), *extra)
+            drawn += 1
+        except (plot_common.Missing, OSError, ValueError) as reason:
+            print(f"plot-run: {name} not drawn: {reason}", file=sys.stderr)
+    return 0 if drawn else 66
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,168 @@
+"""Pictures of the displaced section: plastic strain and displacement at chosen times, stresses of a static state."""
+import h5py
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Normalize
+from scipy.spatial import cKDTree
+
+from plot_common import WIDTH, Missing, array, frame_times, save
+
+PIXELS = 1400  # across a section
+MOST_STRAIN = 0.3  # top of the colour scale of plastic strain
+
+
+def read_particles(path, *fields):
+    """Particles of a frame or a state: position (m) [n,2], size (m) where volumes are stored, the wanted fields."""
+    with h5py.File(path, "r") as file:
+        particles = {"position": array(file, "particles/position", "VTKHDF/Points")[:, :2]}
+        for field in fields:
+            particles[field] = array(file, f"particles/{field}", f"VTKHDF/PointData/{field}")
+        if "particles/volume" in file:
+            particles["size"] = np.sqrt(file["particles/volume"][...])
+        if "particles/material" in file:
+            particles["material"] = file["particles/material"][...]
+    return particles
+
+
+def choose(frames, wanted, count=6):
+    """The frames nearest to the wanted times (s), or count of them evenly spread from the first to the last."""
+    if wanted is None:
+        picked = np.linspace(0, len(frames) - 1, min(count, len(frames))).round().astype(int)
+    else:
+        picked = [int(np.argmin([abs(time - want) for time, _ in frames])) for want in wanted]
+    return [frames[k] for k in sorted(set(picked))]
+
+
+def add_sizes(sections):
+    """Gives particles stored without volume the typical distance between neighbours in the first section (m)."""
+    spacing = None
+    for particles in sections:
+        if "size" not in particles:
+            if spacing is None:
+                position = sections[0]["position"]
+                spacing = np.median(cKDTree(position).query(position, k=2)[0][:, 1])
+            particles["size"] = np.full(len(particles["position"]), spacing)
+
+
+def common_extent(sections):
+    """Left, right, low, high (m) of all sections together, with a small margin."""
+    corners = np.concatenate([[p["position"].min(0), p["position"].max(0)] for p in sections])
+    margin = 0.01 * np.ptp(corners[:, 0]) + max(p["size"].max() for p in sections)
+    (left, low), (right, high) = corners.min(0) - margin, corners.max(0) + margin
+    return left, right, low, high
+
+
+def add_pixels(particles, extent):
+    """Stores for every pixel its nearest particle, -1 where that is farther away than the particle's size."""
+    left, right, low, high = extent
+    rows = max(1, round(PIXELS * (high - low) / (right - left)))
+    x = left + (np.arange(PIXELS) + 0.5) * (right - left) / PIXELS
+    y = low + (np.arange(rows) + 0.5) * (high - low) / rows
+    size = np.append(particles["size"], 0.0)  # the last is that of no particle within reach
+    distance, nearest = cKDTree(particles["position"]).query(np.stack(np.meshgrid(x, y), axis=-1), workers=-1,
+                                                             distance_upper_bound=size.max())
+    particles["pixels"] = np.where(distance <= size[nearest], nearest, -1)
+
+
+def image(particles, values):
+    """The values on the pixels, NaN outside the ground."""
+    return np.where(particles["pixels"] < 0, np.nan, values[particles["pixels"]])
+
+
+def draw_panel(axis, particles, panel, extent):
+    """One section, its grey part below the coloured one."""
+    place = {"extent": extent, "origin": "lower", "aspect": "equal", "interpolation": "nearest"}
+    values, grey = panel["values"], panel.get("grey")
+    if grey is not None:
+        axis.imshow(image(particles, np.where(grey, 1.0, np.nan)), cmap="Greys", vmin=0.0, vmax=4.0, **place)
+        values = np.where(grey, np.nan, values)
+    axis.imshow(image(particles, values), cmap=panel["colours"], norm=panel["norm"], **place)
+    axis.set_title(panel["title"], fontsize=10)
+    axis.set_ylabel("y (m)")
+
+
+def stack(sections, panels):
+    """Figure of stacked sections at one scale, one panel each; returns it and its axes."""
+    add_sizes(sections)
+    left, right, low, high = extent = common_extent(sections)
+    height = len(panels) * (0.83 * WIDTH * (high - low) / (right - left) + 0.4) + 0.7
+    figure, axes = plt.subplots(len(panels), 1, figsize=(WIDTH, height), sharex=True, squeeze=False,
+                                layout="constrained")
+    for axis, particles, panel in zip(axes[:, 0], sections, panels):
+        if "pixels" not in particles:
+            add_pixels(particles, extent)
+        draw_panel(axis, particles, panel, extent)
+    axes[-1, 0].set_xlabel("x (m)")
+    return figure, axes[:, 0]
+
+
+def colour_bar(figure, axes, panels, label, aspect):
+    """Colour bar beside the axes, with an arrow where a panel's values pass its end."""
+    norm, colours = panels[0]["norm"], panels[0]["colours"]
+    over = any(np.nanmax(panel["values"], initial=-np.inf) > norm.vmax for panel in panels)
+    under = any(np.nanmin(panel["values"], initial=np.inf) < norm.vmin for panel in panels)
+    extend = {(True, True): "both", (True, False): "max", (False, True): "min", (False, False): "neither"}
+    figure.colorbar(ScalarMappable(norm, colours), ax=axes, label=label, extend=extend[over, under],
+                    extendfrac=1.0 / aspect, fraction=0.03, pad=0.01, aspect=aspect)
+
+
+def without_strain(sections):
+    """Per section, the particles of materials that have no plastic strain in any of the sections."""
+    if "material" not in sections[0]:
+        return [~np.isfinite(p["plastic_strain"]) for p in sections]
+    strained = {m for p in sections for m in np.unique(p["material"][np.nan_to_num(p["plastic_strain"]) > 0.0])}
+    return [~np.isin(p["material"], list(strained)) for p in sections]
+
+
+def top_of(fields, percentile):
+    """Upper end of a colour scale: the percentile of the positive values, 1e-6 where there are none."""
+    positive = np.concatenate([values[values > 0.0] for values in fields])
+    return max(1e-6, float(np.percentile(positive, percentile))) if positive.size else 1e-6
+
+
+def plastic_strain(folder, out, heading, times):
+    """plastic_strain.png: plastic strain at the chosen times (s)."""
+    frames = choose(frame_times(folder), times)
+    sections = [read_particles(path, "plastic_strain") for _, path in frames]
+    strains = [p["plastic_strain"] for p in sections]
+    if not any(np.nanmax(strain, initial=0.0) > 0.0 for strain in strains):
+        raise Missing("no plastic strain in the chosen frames")
+    norm = Normalize(0.0, min(MOST_STRAIN, top_of(strains, 99.0)))
+    panels = [{"title": f"t = {time:.2f} s", "values": strain, "colours": "inferno_r", "norm": norm, "grey": grey}
+              for (time, _), strain, grey in zip(frames, strains, without_strain(sections))]
+    figure, axes = stack(sections, panels)
+    colour_bar(figure, axes, panels, "plastic strain (grey: material that has none)", aspect=20 * len(panels))
+    save(figure, out / "plastic_strain.png", heading)
+
+
+def displacement(folder, out, heading, times):
+    """displacement.png: magnitude of the displacement (m) at the chosen times (s)."""
+    frames = choose(frame_times(folder), times)
+    sections = [read_particles(path, "displacement") for _, path in frames]
+    lengths = [np.linalg.norm(p["displacement"][:, :2], axis=1) for p in sections]
+    norm = Normalize(0.0, top_of(lengths, 99.5))
+    panels = [{"title": f"t = {time:.2f} s", "values": length, "colours": "viridis_r", "norm": norm}
+              for (time, _), length in zip(frames, lengths)]
+    figure, axes = stack(sections, panels)
+    colour_bar(figure, axes, panels, "displacement (m)", aspect=20 * len(panels))
+    save(figure, out / "displacement.png", heading)
+
+
+def static_stress(folder, out, heading):
+    """static_stress.png: stresses (kPa, tension positive) at the end of the static stage."""
+    path = folder / "final.h5"
+    particles = read_particles(path if path.exists() else frame_times(folder)[-1][1], "stress")
+    xx, yy, zz, xy = particles["stress"].T / 1e3
+    q = np.sqrt(0.5 * ((xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2) + 3.0 * xy**2)
+    shear = float(np.percentile(np.abs(xy), 99.5)) or 1.0
+    low_yy, low_xx, top_q = np.percentile(yy, 0.2), np.percentile(xx, 0.2), np.percentile(q, 99.8)
+    panels = [{"title": title, "values": values, "colours": colours, "norm": norm} for title, values, colours, norm in (
+        (r"$\sigma_{yy}$", yy, "viridis", Normalize(min(low_yy, -1e-6), 0.0)),
+        (r"$\sigma_{xx}$", xx, "viridis", Normalize(min(low_xx, -1e-6), 0.0)),
+        (r"$\tau_{xy}$", xy, "RdBu_r", Normalize(-shear, shear)),
+        (r"$q = \sqrt{3 J_2}$", q, "inferno_r", Normalize(0.0, max(top_q, 1e-6))))]
+    figure, axes = stack([particles] * len(panels), panels)
+    for axis, panel in zip(axes, panels):
+        colour_bar(figure, axis, [panel], "kPa", aspect=15)
+    save(figure, out / "static_stress.png", heading + ", static state (tension positive)")

@@ -1,0 +1,169 @@
+// Which particle stands where: the stable sort, the blocks, and the grid that follows from them.
+
+#include "solver/mpm/domain.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace mpm
+{
+namespace
+{
+/// Sort key of a particle: block (row by row), then cell in it.
+struct Key
+{
+  BlockIndex block;
+  int cell;
+  bool operator==(const Key&) const = default;
+  auto operator<=>(const Key&) const = default;
+};
+
+Key key_of(const Grid& grid, double x, double y)
+{
+  const int i = static_cast<int>(std::floor((x - grid.origin_x) * grid.inverse_spacing()));
+  const int j = static_cast<int>(std::floor((y - grid.origin_y) * grid.inverse_spacing()));
+  const BlockIndex block{grid.wrapped ? 0 : block_of(i), block_of(j)};
+  return {block, (j & (block_cells - 1)) * block_cells + (i & (block_cells - 1))};
+}
+
+template <class T>
+void permute(std::vector<T>& values, const std::vector<int>& order, int from, std::vector<T>& scratch)
+{
+  scratch.resize(order.size());
+  for (std::size_t k = 0; k < order.size(); ++k) scratch[k] = values[from + order[k]];
+  std::copy(scratch.begin(), scratch.end(), values.begin() + from);
+}
+
+/// Sorts the particles of one material and appends its stretches, block by block.
+void sort_material(Domain& domain, int material, std::vector<std::pair<BlockIndex, Range>>& stretches)
+{
+  Particles& p = domain.particles;
+  const int begin = domain.material_begin[material], count = domain.material_begin[material + 1] - begin;
+  std::vector<Key> keys(count);
+  for (int k = 0; k < count; ++k) keys[k] = key_of(domain.grid, p.x[begin + k], p.y[begin + k]);
+  std::vector<int> order(count);
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return keys[a] < keys[b]; });
+
+  std::vector<double> doubles;
+  std::vector<std::int64_t> integers;
+  for_each_array(p, [&](std::vector<double>& values) { permute(values, order, begin, doubles); });
+  permute(p.id, order, begin, integers);
+  for (auto& state : domain.materials[material].state) permute(state, order, 0, doubles);
+
+  for (int k = 0; k < count; ++k)
+  {
+    const BlockIndex block = keys[order[k]].block;
+    if (k == 0 || block != stretches.back().first)
+      stretches.push_back({block, {material, begin + k, begin + k}});
+    stretches.back().second.end = begin + k + 1;
+  }
+}
+
+void find_places(Domain& domain)
+{
+  domain.place.resize(domain.particles.size());
+  for (int k = 0; k < domain.particles.size(); ++k) domain.place[domain.particles.id[k]] = k;
+}
+
+std::vector<BlockIndex> with_surroundings(const Domain& domain)
+{
+  std::vector<BlockIndex> wanted;
+  for (const Home& home : domain.homes)
+    for (int y = -1; y <= 1; ++y)
+      for (int x = -1; x <= 1; ++x)
+        wanted.push_back({domain.grid.wrapped ? 0 : home.block.x + x, home.block.y + y});
+  std::sort(wanted.begin(), wanted.end());
+  wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+  return wanted;
+}
+} // namespace
+
+void set_materials(Domain& domain, std::vector<Material> materials, const std::vector<int>& counts)
+{
+  domain.materials = std::move(materials);
+  domain.material_begin.assign(1, 0);
+  for (std::size_t k = 0; k < counts.size(); ++k)
+  {
+    domain.material_begin.push_back(domain.material_begin.back() + counts[k]);
+    Material& material = domain.materials[k];
+    material.state.assign(material.state_fields().size(), std::vector<double>(counts[k], 0.0));
+  }
+  domain.particles.resize(domain.material_begin.back());
+  std::iota(domain.particles.id.begin(), domain.particles.id.end(), 0);
+}
+
+void rebuild(Domain& domain)
+{
+  const auto absorbing = [](const auto& boundary) { return boundary->absorbs(); };
+  const bool dashpots = std::any_of(domain.boundaries.begin(), domain.boundaries.end(), absorbing);
+  domain.grid.build(with_surroundings(domain), dashpots);
+  for (auto& colour : domain.colours) colour.clear();
+  for (std::size_t k = 0; k < domain.homes.size(); ++k)
+  {
+    domain.homes[k].around = domain.grid.around(domain.homes[k].block);
+    domain.colours[domain.homes[k].block.colour()].push_back(static_cast<int>(k));
+  }
+  find_places(domain);
+  for (const auto& boundary : domain.boundaries) boundary->bind(domain);
+}
+
+void sort_particles(Domain& domain)
+{
+  std::vector<std::pair<BlockIndex, Range>> stretches;
+  for (std::size_t k = 0; k < domain.materials.size(); ++k) sort_material(domain, static_cast<int>(k), stretches);
+  std::stable_sort(stretches.begin(), stretches.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  domain.homes.clear();
+  for (const auto& [block, range] : stretches)
+  {
+    if (domain.homes.empty() || domain.homes.back().block != block) domain.homes.push_back({block, {}, {}});
+    domain.homes.back().ranges.push_back(range);
+  }
+  domain.drift = 0;
+  find_places(domain);
+  for (const auto& boundary : domain.boundaries) boundary->sort(domain);
+  rebuild(domain);
+}
+
+double kinetic_energy(const Domain& domain)
+{
+  const Particles& p = domain.particles;
+  const double inertia = domain.grid.spacing * domain.grid.spacing / 3; // D = h^2 / 3
+  double sum = 0;
+  for (int k = 0; k < p.size(); ++k)
+  {
+    const double translation = p.velocity_x[k] * p.velocity_x[k] + p.velocity_y[k] * p.velocity_y[k];
+    const double affine = p.affine_xx[k] * p.affine_xx[k] + p.affine_xy[k] * p.affine_xy[k] +
+                          p.affine_yx[k] * p.affine_yx[k] + p.affine_yy[k] * p.affine_yy[k];
+    sum += 0.5 * p.mass[k] * (translation + inertia * affine);
+  }
+  return sum;
+}
+
+double greatest_speed(const Domain& domain)
+{
+  const Particles& p = domain.particles;
+  double greatest = 0;
+  for (int k = 0; k < p.size(); ++k) greatest = std::max(greatest, std::hypot(p.velocity_x[k], p.velocity_y[k]));
+  return greatest;
+}
+
+void check_particles(const Domain& domain, const std::vector<double>& reference_volume)
+{
+  const Particles& p = domain.particles;
+  const auto place = [&](int k)
+  {
+    return domain.name + ": particle " + std::to_string(p.id[k]) + " at x = " + std::to_string(p.x[k]) +
+           " m, y = " + std::to_string(p.y[k]) + " m, t = " + std::to_string(domain.time) + " s ";
+  };
+  for (int k = 0; k < p.size(); ++k)
+  {
+    const double all = p.x[k] + p.y[k] + p.stress_xx[k] + p.stress_yy[k] + p.stress_zz[k] + p.stress_xy[k];
+    if (!std::isfinite(all)) throw Diverged(place(k) + "is not finite; use a smaller time_step.safety");
+    if (p.volume[k] < 0.1 * reference_volume[p.id[k]])
+      throw Diverged(place(k) + "is squeezed below a tenth of its volume; use a smaller time_step.safety or grid.spacing");
+  }
+}
+} // namespace mpm

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "solver/mpm/state.hpp"
+
+namespace mpm
+{
+struct Domain;
+
+/// What a boundary does to a step. The loops are inside; each is called once a step at most.
+struct Boundary
+{
+  virtual ~Boundary() = default;
+  /// Its place below /boundary in a checkpoint; empty when it has nothing to remember.
+  virtual std::string_view name() const { return {}; }
+  /// Whether the boundary needs the grid's dashpot coefficients.
+  virtual bool absorbs() const { return false; }
+  /// The particles were sorted: what goes by where they stand may be decided anew.
+  virtual void sort(const Domain&) {}
+  /// Finds its particles and nodes again after a sort or a restart; must not go by positions,
+  /// since a restart finds them further on than the sort did.
+  virtual void bind(const Domain&) {}
+  /// Adds forces and dashpots to the grid, after the particles' own scatter. The step runs from domain.time to
+  /// domain.time + dt.
+  virtual void add_forces(Domain&, double /*dt*/) {}
+  /// Last word before the equation of motion: mirrors nodes at a wall.
+  virtual void constrain(Domain&) {}
+  /// What the ground remembers here, for checkpoints.
+  virtual void visit_state(StateVisitor&) {}
+};
+} // namespace mpm

@@ -1,0 +1,93 @@
+#pragma once
+
+#include "materials/material.hpp"
+#include "solver/mpm/boundary.hpp"
+#include "solver/mpm/grid.hpp"
+#include "solver/mpm/particles.hpp"
+
+#include <memory>
+#include <stdexcept>
+
+namespace mpm
+{
+/// Consecutive particles of one material in one block.
+struct Range
+{
+  int material;
+  int begin, end;
+};
+
+/// A block that holds particles, and its ranges in the order in which they are summed.
+struct Home
+{
+  BlockIndex block;
+  Neighbours around;
+  std::vector<Range> ranges;
+};
+
+/// A massless material point that moves with the interpolated grid velocity: a gauge.
+struct Tracer
+{
+  double x, y;                     ///< position, m
+  double reference_x, reference_y; ///< where it began, m
+  double velocity_x = 0, velocity_y = 0;
+};
+
+/// Force balance and motion of the last step, of nodes that carry more than 1 % of a full cell.
+struct Balance
+{
+  double unbalanced = 0; ///< sum |f|, N per m
+  double total = 0;      ///< sum |f_int| + |f_ext|, N per m
+  double ratio() const { return total > 0 ? unbalanced / total : 0; }
+};
+
+/// The run left the range in which explicit steps mean something (blow-up, not a number).
+struct Diverged : std::runtime_error
+{
+  using std::runtime_error::runtime_error;
+};
+
+/// A body of material on its own grid, with its boundaries: the model itself, or a free-field column.
+struct Domain
+{
+  std::string name;
+  Grid grid;
+  Particles particles;
+  std::vector<Material> materials;
+  std::vector<int> material_begin; ///< particles of material k: [material_begin[k], material_begin[k + 1])
+  std::vector<std::unique_ptr<Boundary>> boundaries;
+  std::vector<Tracer> tracers;
+
+  double gravity_x = 0, gravity_y = 0; ///< body acceleration of now, m/s2
+  double damping = 0;                  ///< local damping beta, eq. (1)
+  bool plastic = true;                 ///< whether the laws may yield
+  bool balance_wanted = false;         ///< whether the step measures `balance`
+  double time = 0;                     ///< at the start of the step, s
+
+  std::vector<Home> homes;                 ///< sorted by block
+  std::array<std::vector<int>, 4> colours; ///< homes that share no node within a colour
+  std::vector<int> place;                  ///< where a particle id stands now
+  double drift = 0;                        ///< cells that a particle may have moved since the last sort
+  Balance balance;
+  double greatest_move = 0; ///< greatest displacement component of the last step, in cells
+};
+
+/// Sizes place and material_begin, sorts the particles (with their materials' state), rebuilds blocks and grid and
+/// binds the boundaries. `material_of[id]` is only needed the first time, when the order is the caller's.
+void sort_particles(Domain& domain);
+
+/// Rebuilds blocks, grid and bindings from the homes in place, without touching the order (after a restart).
+void rebuild(Domain& domain);
+
+/// Puts particles, in any order but grouped by material, into a domain with ids 0 .. n-1.
+void set_materials(Domain& domain, std::vector<Material> materials, const std::vector<int>& counts);
+
+/// Kinetic energy in J per m, with the affine part.
+double kinetic_energy(const Domain& domain);
+
+/// Greatest particle speed in m/s.
+double greatest_speed(const Domain& domain);
+
+/// Throws Diverged when a particle is not finite or squeezed below a tenth of its volume.
+void check_particles(const Domain& domain, const std::vector<double>& reference_volume);
+} // namespace mpm

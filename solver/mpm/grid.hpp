@@ -1,0 +1,139 @@
+#pragma once
+
+#include "solver/mpm/simd.hpp"
+
+#include <array>
+#include <compare>
+#include <vector>
+
+namespace mpm
+{
+inline constexpr int block_cells = 8;                           ///< cells (and nodes) along a block's edge
+inline constexpr int block_nodes = block_cells * block_cells;   ///< nodes that a block owns
+inline constexpr int tile_margin = 2;                           ///< nodes of a tile left of its block: 1 of the stencil, 1 of drift
+inline constexpr int tile_nodes = block_cells + 2 * tile_margin + 1;
+inline constexpr int tile_stride = 16;
+inline constexpr int tile_size = tile_nodes * tile_stride;
+
+/// Place of a block: its cells are [8 x, 8 x + 8) by [8 y, 8 y + 8).
+struct BlockIndex
+{
+  int x, y;
+  bool operator==(const BlockIndex&) const = default;
+  std::strong_ordering operator<=>(const BlockIndex& other) const
+  {
+    if (const auto order = y <=> other.y; order != 0) return order;
+    return x <=> other.x;
+  }
+  int colour() const { return (x & 1) + 2 * (y & 1); }
+};
+
+/// The 3 x 3 blocks around a block as places in Grid::blocks, -1 where there is none; row by row from below.
+using Neighbours = std::array<int, 9>;
+
+/// Sparse background grid: only blocks that hold material, and those that their stencils reach, exist.
+/// Node (i, j) stands at origin + spacing * (i, j); node fields are stored block by block, row by row.
+struct Grid
+{
+  double spacing = 1;
+  double origin_x = 0, origin_y = 0;
+  bool wrapped = false; ///< one cell wide, the node index wraps in x: a free-field column (METHODS section 5)
+
+  std::vector<BlockIndex> blocks; ///< sorted
+  std::vector<Neighbours> neighbours;
+
+  std::vector<double> mass;
+  std::vector<double> momentum_x, momentum_y;
+  std::vector<double> force_x, force_y;
+  std::vector<double> dashpot_x, dashpot_y;   ///< viscous coefficients in N s/m; empty without absorbing boundaries
+  std::vector<double> velocity_x, velocity_y; ///< updated velocity v*
+
+  double inverse_spacing() const { return 1 / spacing; }
+  int nodes() const { return static_cast<int>(blocks.size()) * block_nodes; }
+  /// Place of a block in `blocks`, -1 if it does not exist.
+  int find(BlockIndex block) const;
+  /// Place of node (i, j) in the node fields, -1 if its block does not exist.
+  int node(int i, int j) const;
+  Neighbours around(BlockIndex block) const;
+  /// Makes the grid of exactly these blocks (sorted, unique) and sizes the node fields.
+  void build(std::vector<BlockIndex> wanted, bool with_dashpots);
+  void clear(int block);
+};
+
+/// Block that owns cell or node i of a direction.
+inline int block_of(int i) { return i >> 3; }
+
+/// Finds the nodes of one stencil after the other, quickly when they are near each other.
+class NodeFinder
+{
+public:
+  explicit NodeFinder(const Grid& grid) : grid_(grid) {}
+  /// Moves to the stencil whose first node is (i, j).
+  void move_to(int i, int j)
+  {
+    const BlockIndex block{block_of(i), block_of(j)};
+    if (known_ && block == block_) return;
+    block_ = block;
+    around_ = grid_.around(block);
+    known_ = true;
+  }
+  /// Place of node (i, j) of that stencil, -1 if its block does not exist.
+  int operator()(int i, int j) const
+  {
+    const int block = around_[3 * (block_of(j) - block_.y + 1) + block_of(i) - block_.x + 1];
+    const int column = grid_.wrapped ? 0 : i & (block_cells - 1);
+    return block < 0 ? -1 : block * block_nodes + (j & (block_cells - 1)) * block_cells + column;
+  }
+
+private:
+  const Grid& grid_;
+  BlockIndex block_{};
+  Neighbours around_{};
+  bool known_ = false;
+};
+
+/// A block's own dense copy of one node field, with the margin that its particles reach.
+struct alignas(64) Tile
+{
+  std::array<double, tile_size> value;
+};
+
+/// Runs of consecutive nodes shared by a tile and the grid: f(place in the grid, place in the tile, count).
+/// In a wrapped grid every tile column is the one node column.
+template <class Function>
+void for_each_run(const Grid& grid, const Neighbours& around, const Function& f)
+{
+  for (int row = 0; row < tile_nodes; ++row)
+  {
+    const int y = row - tile_margin;
+    const int band = y < 0 ? 0 : y < block_cells ? 1 : 2;
+    const int line = (y & (block_cells - 1)) * block_cells;
+    const int tile = row * tile_stride;
+    const int left = around[3 * band], middle = around[3 * band + 1], right = around[3 * band + 2];
+    if (grid.wrapped)
+    {
+      if (middle >= 0)
+        for (int column = 0; column < tile_nodes; ++column) f(middle * block_nodes + line, tile + column, 1);
+      continue;
+    }
+    if (left >= 0) f(left * block_nodes + line + block_cells - tile_margin, tile, tile_margin);
+    if (middle >= 0) f(middle * block_nodes + line, tile + tile_margin, block_cells);
+    if (right >= 0) f(right * block_nodes + line, tile + tile_margin + block_cells, tile_margin + 1);
+  }
+}
+
+/// Adds a tile to the node field of the blocks around it.
+inline void add_tile(const Grid& grid, const Neighbours& around, const Tile& tile, std::vector<double>& field)
+{
+  for_each_run(grid, around, [&](int node, int place, int count)
+               { for (int k = 0; k < count; ++k) field[node + k] += tile.value[place + k]; });
+}
+
+/// Copies a node field into a tile; nodes of blocks that do not exist are zero.
+inline void read_tile(const Grid& grid, const Neighbours& around, const std::vector<double>& field, Tile& tile)
+{
+  tile.value.fill(0);
+  for_each_run(grid, around, [&](int node, int place, int count)
+               { for (int k = 0; k < count; ++k) tile.value[place + k] = field[node + k]; });
+}
+} // namespace mpm

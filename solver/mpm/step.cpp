@@ -1,0 +1,42 @@
+#include "solver/mpm/step.hpp"
+
+namespace mpm
+{
+namespace
+{
+/// Cells that a particle may drift from its block before the next sort; the tile margin holds one.
+constexpr double drift_limit = 0.75;
+constexpr double move_limit = 0.25;
+
+/// Keeps the particles of a column within the one cell, together with their reference positions.
+void wrap(Domain& domain)
+{
+  Particles& p = domain.particles;
+  const double width = domain.grid.spacing, left = domain.grid.origin_x;
+  for (int k = 0; k < p.size(); ++k)
+  {
+    const double shift = p.x[k] < left ? width : p.x[k] >= left + width ? -width : 0;
+    p.x[k] += shift;
+    p.reference_x[k] += shift;
+  }
+}
+
+void find_diverged(const Domain& domain)
+{
+  if (domain.greatest_move <= move_limit) return;
+  throw Diverged(domain.name + ": a particle moved more than a quarter of a cell in the step at t = " +
+                 std::to_string(domain.time) + " s; use a smaller time_step.safety");
+}
+} // namespace
+
+void step(Domain& domain, double dt)
+{
+  if (domain.drift > drift_limit - move_limit) sort_particles(domain);
+  particles_to_grid(domain, dt); // (a) mass, momentum and forces to the grid
+  solve_grid(domain, dt);        // (b) equation of motion
+  grid_to_particles(domain, dt); // (c) velocities back to the particles, (d) deformation and stress
+  find_diverged(domain);
+  domain.drift += domain.greatest_move;
+  if (domain.grid.wrapped) wrap(domain);
+}
+} // namespace mpm

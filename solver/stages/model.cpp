@@ -1,0 +1,181 @@
+#include "solver/stages/model.hpp"
+
+#include "solver/mpm/parallel.hpp"
+#include "solver/mpm/step.hpp"
+#include "solver/stages/fill.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mpm
+{
+namespace
+{
+/// Puts seeds, grouped by material, into a domain whose grid is set up.
+void plant(Domain& domain, const Case& scene, std::vector<Seed> seeds)
+{
+  std::stable_sort(seeds.begin(), seeds.end(), [](const Seed& a, const Seed& b) { return a.material < b.material; });
+  std::vector<int> counts(scene.materials.size(), 0);
+  for (const Seed& seed : seeds) ++counts[seed.material];
+  set_materials(domain, scene.materials, counts);
+  Particles& p = domain.particles;
+  for (std::size_t k = 0; k < seeds.size(); ++k)
+  {
+    p.x[k] = p.reference_x[k] = seeds[k].x;
+    p.y[k] = p.reference_y[k] = seeds[k].y;
+    p.volume[k] = seeds[k].volume;
+    p.mass[k] = seeds[k].volume * scene.materials[seeds[k].material].elastic().density;
+  }
+}
+
+/// The column of a side: the model's outermost column of particles, in a grid one cell wide.
+std::unique_ptr<FreeFieldColumn> make_column(const Case& scene, const std::vector<Seed>& seeds, Edge edge)
+{
+  const double size = scene.grid.particle_spacing();
+  const double side = edge == Edge::left ? scene.domain.left : scene.domain.right;
+  std::vector<Seed> rows;
+  for (const Seed& seed : seeds)
+    if (std::fabs(seed.x - side) < 0.75 * size) rows.push_back(seed);
+  if (rows.empty()) return nullptr;
+  auto domain = std::make_unique<Domain>();
+  domain->name = edge == Edge::left ? "left column" : "right column";
+  domain->grid.spacing = scene.grid.spacing;
+  domain->grid.origin_x = edge == Edge::left ? side : side - scene.grid.spacing;
+  domain->grid.origin_y = scene.domain.bottom;
+  domain->grid.wrapped = true;
+  plant(*domain, scene, rows);
+  sort_particles(*domain);
+  return std::make_unique<FreeFieldColumn>(std::move(domain));
+}
+
+int cells_across(const Case& scene) { return static_cast<int>(std::lround(scene.domain.width() / scene.grid.spacing)); }
+
+Wall bottom_wall() { return {Direction::y, 0, 1, false}; }
+Wall left_wall() { return {Direction::x, 0, 1, true}; }
+Wall right_wall(const Case& scene) { return {Direction::x, cells_across(scene), -1, true}; }
+
+void add_walls(Domain& domain, std::span<const Wall> walls)
+{
+  for (const Wall& wall : walls) domain.boundaries.push_back(std::make_unique<MirroredWall>(wall));
+}
+
+void come_to_rest(Domain& domain)
+{
+  Particles& p = domain.particles;
+  for (auto* values : {&p.velocity_x, &p.velocity_y, &p.affine_xx, &p.affine_xy, &p.affine_yx, &p.affine_yy})
+    std::fill(values->begin(), values->end(), 0.0);
+}
+
+/// Walls that stay, images for those that leave, and the compliant base.
+void switch_boundaries(Domain& domain, const Case& scene, std::span<const Wall> leaving, std::span<const Wall> staying,
+                       const std::shared_ptr<const IncomingWave>& wave, bool restarting)
+{
+  std::vector<Image> images;
+  if (!restarting) images = make_images(domain, leaving);
+  domain.boundaries.clear();
+  domain.boundaries.push_back(std::make_unique<FrozenImages>(std::move(images)));
+  add_walls(domain, staying);
+  if (scene.seismic.base == BaseKind::fixed) return;
+  std::vector<Face> faces;
+  if (!restarting) faces = find_faces(domain, Edge::bottom, scene.domain.bottom, scene.grid.particle_spacing());
+  domain.boundaries.push_back(std::make_unique<CompliantBase>(std::move(faces), wave));
+}
+} // namespace
+
+Model make_model(const Case& scene)
+{
+  Model model;
+  const std::vector<Seed> seeds = fill(scene).seeds;
+  model.main = std::make_unique<Domain>();
+  Domain& main = *model.main;
+  main.name = scene.name;
+  main.grid.spacing = scene.grid.spacing;
+  main.grid.origin_x = scene.domain.left;
+  main.grid.origin_y = scene.domain.bottom;
+  plant(main, scene, seeds);
+  model.reference_volume = main.particles.volume;
+  sort_particles(main);
+  if (scene.seismic.sides == SideKind::free_field)
+  {
+    model.left = make_column(scene, seeds, Edge::left);
+    model.right = make_column(scene, seeds, Edge::right);
+  }
+  return model;
+}
+
+void add_static_boundaries(Model& model, const Case& scene)
+{
+  model.for_each_domain(
+      [&](Domain& domain, const std::string& column)
+      {
+        std::vector<Wall> walls{bottom_wall()};
+        if (column.empty()) walls.insert(walls.end(), {left_wall(), right_wall(scene)});
+        add_walls(domain, walls);
+        domain.damping = scene.statics.damping;
+        rebuild(domain);
+      });
+}
+
+void add_seismic_boundaries(Model& model, const Case& scene, std::shared_ptr<const IncomingWave> wave, bool restarting)
+{
+  const bool fixed = scene.seismic.base == BaseKind::fixed, roller = scene.seismic.sides == SideKind::roller;
+  model.for_each_domain(
+      [&](Domain& domain, const std::string& column)
+      {
+        std::vector<Wall> leaving, staying;
+        (fixed ? staying : leaving).push_back(bottom_wall());
+        if (column.empty())
+        {
+          auto& walls = roller ? staying : leaving;
+          walls.insert(walls.end(), {left_wall(), right_wall(scene)});
+        }
+        domain.damping = 0;
+        domain.gravity_y = -scene.statics.gravity;
+        domain.plastic = true;
+        if (!restarting) come_to_rest(domain);
+        switch_boundaries(domain, scene, leaving, staying, wave, restarting);
+      });
+  if (!roller)
+    for (const Edge edge : {Edge::left, Edge::right})
+    {
+      const FreeFieldColumn* column = (edge == Edge::left ? model.left : model.right).get();
+      auto side = std::make_unique<FreeFieldSide>(edge, column, wave);
+      const double position = edge == Edge::left ? scene.domain.left : scene.domain.right;
+      if (!restarting) side->begin(*model.main, position, scene.domain.bottom, scene.grid.particle_spacing());
+      model.sides.push_back(side.get());
+      model.main->boundaries.push_back(std::move(side));
+    }
+  if (!restarting) model.for_each_domain([](Domain& domain, const std::string&) { sort_particles(domain); });
+}
+
+void advance(Model& model, double time, double dt)
+{
+  const auto column = [=](FreeFieldColumn* c)
+  {
+    if (c) c->advance(time, dt);
+  };
+  if (model.left && model.right)
+    parallel::together([&] { column(model.left.get()); }, [&] { column(model.right.get()); });
+  else
+  {
+    column(model.left.get());
+    column(model.right.get());
+  }
+  model.main->time = time;
+  step(*model.main, dt);
+}
+
+double greatest_wave_speed(const Domain& domain)
+{
+  const Particles& p = domain.particles;
+  double greatest = 0;
+  for (std::size_t m = 0; m < domain.materials.size(); ++m)
+  {
+    double lightest = std::numeric_limits<double>::infinity();
+    for (int k = domain.material_begin[m]; k < domain.material_begin[m + 1]; ++k)
+      lightest = std::min(lightest, p.mass[k] / p.volume[k]);
+    greatest = std::max(greatest, std::sqrt(domain.materials[m].elastic().p_modulus() / lightest));
+  }
+  return greatest;
+}
+} // namespace mpm

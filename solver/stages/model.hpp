@@ -1,0 +1,43 @@
+#pragma once
+
+#include "boundaries/free_field.hpp"
+#include "io/case.hpp"
+
+namespace mpm
+{
+/// A scene ready to step: the model and its free-field columns (none where the sides are not free-field).
+struct Model
+{
+  std::unique_ptr<Domain> main;
+  std::unique_ptr<FreeFieldColumn> left, right;
+  std::vector<double> reference_volume; ///< by particle id, m3 per m
+  std::vector<const FreeFieldSide*> sides;
+
+  /// f(domain, name) for the model ("" as name) and each column ("left", "right").
+  template <class Function>
+  void for_each_domain(const Function& f)
+  {
+    f(*main, std::string());
+    if (left) f(*left->domain, std::string("left"));
+    if (right) f(*right->domain, std::string("right"));
+  }
+};
+
+/// The undeformed scene: particles fill the regions, no stress, no boundaries yet.
+Model make_model(const Case& scene);
+
+/// Kinematic walls of the static stage: no-slip base, slip sides (METHODS section 2).
+void add_static_boundaries(Model& model, const Case& scene);
+
+/// The switch: walls leave and their reaction stays (METHODS section 3); particles come to rest; base and sides
+/// become what the case's seismic section says. With `restarting`, the boundaries are left empty for a
+/// checkpoint to fill.
+void add_seismic_boundaries(Model& model, const Case& scene, std::shared_ptr<const IncomingWave> wave,
+                            bool restarting);
+
+/// Advances columns, then the model, from `time` over `dt` s.
+void advance(Model& model, double time, double dt);
+
+/// Greatest pressure-wave speed of the scene as it is now (rho = m/V), m/s.
+double greatest_wave_speed(const Domain& domain);
+} // namespace mpm

@@ -1,0 +1,100 @@
+#include "solver/stages/motion.hpp"
+
+#include "built_in.hpp"
+#include "io/record_reader.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace mpm
+{
+namespace
+{
+constexpr double end_taper = 0.5; // s, over which a motion fades that is ended before its record does
+
+struct Source
+{
+  Record record;
+  std::string digest;
+};
+
+Source read(const MotionSource& source)
+{
+  if (source.built_in())
+    return {parse_record(built_in_motion, {.file = "built_in.AT2", .format = "peer"}), sha256(built_in_motion)};
+  return {read_record(source.record), sha256_file(source.record.file)};
+}
+
+/// Ends a motion at `end` s: cosine fade of its velocity over the last half second.
+void fade_out(GroundMotion& motion, double end)
+{
+  for (std::size_t k = 0; k < motion.velocity.size(); ++k)
+  {
+    const double s = std::clamp((end - motion.dt * double(k)) / end_taper, 0.0, 1.0);
+    const double w = 0.5 - 0.5 * std::cos(std::numbers::pi * s);
+    const double slope = s > 0 && s < 1 ? -0.5 * std::numbers::pi / end_taper * std::sin(std::numbers::pi * s) : 0;
+    motion.acceleration[k] = motion.acceleration[k] * w + motion.velocity[k] * slope;
+    motion.velocity[k] *= w;
+  }
+}
+
+void report(Session& session, const std::string& component, const Record& record, const GroundMotion& motion)
+{
+  const MotionReport& r = motion.report;
+  session.log.info("{} motion {}: PGA {:.3f} g at {:.2f} s, PGV {:.3f} m/s, PGD {:.3f} m, Arias {:.2f} m/s, D5-95 {:.1f} s",
+                   component, record.source, r.pga / standard_gravity, r.pga_time, r.pgv, r.pgd, r.arias, r.d5_95);
+  session.log.info("{} motion: residual velocity {:.2e} -> {:.2e} m/s, residual displacement {:.2e} -> {:.2e} m",
+                   component, r.raw_residual_velocity, r.residual_velocity, r.raw_residual_displacement,
+                   r.residual_displacement);
+  for (const std::string& note : record.notes) session.log.detail("{}", note);
+  for (const std::string& warning : r.warnings) session.log.warn("{}", warning);
+}
+
+std::optional<GroundMotion> load(Session& session, const std::string& component, std::optional<MotionSource> source,
+                                 const std::string& replacement, Motion& motion)
+{
+  const Options& options = session.options;
+  if (!replacement.empty())
+  {
+    source = MotionSource{};
+    source->record = {replacement, "auto", options.record_dt, options.record_unit, std::nullopt};
+  }
+  if (!source) return std::nullopt;
+  const MotionSettings& settings = session.scene.seismic.motion;
+  MotionProcessing processing = settings.processing;
+  processing.scale = source->scale * options.scale;
+  const Source read_source = read(*source);
+  const Record& record = read_source.record;
+  GroundMotion result;
+  try
+  {
+    result = make_ground_motion(record, processing);
+  }
+  catch (const std::runtime_error& error)
+  {
+    throw Error(exit_code::bad_input, error.what());
+  }
+  if (settings.end == MotionEnd::time) fade_out(result, settings.end_time);
+  report(session, component, record, result);
+  motion.identity.push_back({"motion." + component,
+                             fmt::format("sha256 {}, dt {} s, scale {}", read_source.digest, record.dt, processing.scale)});
+  const std::string name = source->built_in() ? "built_in" : std::filesystem::path(record.source).stem().string();
+  motion.title += (motion.title.empty() ? "" : " + ") + name;
+  return result;
+}
+} // namespace
+
+Motion load_motion(Session& session)
+{
+  const MotionSettings& settings = session.scene.seismic.motion;
+  if (settings.end == MotionEnd::self_driven)
+    throw Error(exit_code::bad_input, session.scene.path.string() + ": seismic.motion.end: self_driven is not offered; "
+                                                                    "give a time, or never");
+  Motion motion;
+  motion.wave = std::make_shared<IncomingWave>();
+  motion.wave->horizontal = load(session, "horizontal", settings.horizontal, session.options.motion, motion);
+  motion.wave->vertical = load(session, "vertical", settings.vertical, session.options.vertical, motion);
+  if (session.options.scale != 1) motion.title += fmt::format(" x {}", session.options.scale);
+  return motion;
+}
+} // namespace mpm

@@ -1,0 +1,267 @@
+#include "solver/stages/observer.hpp"
+
+#include "io/frames.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mpm
+{
+namespace
+{
+constexpr double slide_every = 0.1; // s between samples of the slide's measures
+constexpr double moved = 1;         // m beyond which ground counts as slid
+
+std::array<double, 2> displacement_of(const Domain& domain, int k)
+{
+  const Particles& p = domain.particles;
+  return {p.x[k] - p.reference_x[k], p.y[k] - p.reference_y[k]};
+}
+
+std::array<double, 2> velocity_of(const Domain& domain, int k)
+{
+  return {domain.particles.velocity_x[k], domain.particles.velocity_y[k]};
+}
+
+/// Scalar or tensor field of all particles, in their order.
+Frame::Field frame_field(const Domain& domain, const std::string& name)
+{
+  const Particles& p = domain.particles;
+  const int count = p.size();
+  const auto vector = [&](const auto& of)
+  {
+    std::vector<double> values;
+    for (int k = 0; k < count; ++k)
+    {
+      const auto [x, y] = of(domain, k);
+      values.insert(values.end(), {x, y, 0});
+    }
+    return values;
+  };
+  if (name == "displacement") return {name, "m", 3, vector(displacement_of)};
+  if (name == "velocity") return {name, "m/s", 3, vector(velocity_of)};
+  for (const ParticleField& field : particle_fields)
+  {
+    if (field.name != name) continue;
+    Frame::Field result{name, std::string(field.unit), field.components, {}};
+    for (int k = 0; k < count; ++k)
+      for (int c = 0; c < field.components; ++c) result.values.push_back((p.*field.data[c])[k]);
+    return result;
+  }
+  Frame::Field result{name, "1", 1, std::vector<double>(count, 0.0)};
+  for (std::size_t m = 0; m < domain.materials.size(); ++m)
+  {
+    const Material& material = domain.materials[m];
+    for (std::size_t f = 0; f < material.state.size(); ++f)
+    {
+      if (material.state_fields()[f].name != name) continue;
+      result.unit = material.state_fields()[f].unit;
+      std::copy(material.state[f].begin(), material.state[f].end(), result.values.begin() + domain.material_begin[m]);
+    }
+  }
+  return result;
+}
+} // namespace
+
+Observer::Observer(Session& session, Model& model, const IncomingWave& wave)
+    : session_(session), model_(model), wave_(wave)
+{
+  add_series();
+}
+
+void Observer::add_series()
+{
+  const Axis component{"component", {"x", "y"}};
+  fast_ = 0;
+  slow_ = history_.add_clock();
+  const auto& points = session_.scene.output.gauges.points;
+  if (!points.empty())
+  {
+    Axis gauge{"gauge", {}};
+    for (const GaugePoint& point : points) gauge.labels.push_back(point.name);
+    displacement_ = history_.add_series("gauges/displacement", "m", {gauge, component}, fast_);
+    velocity_ = history_.add_series("gauges/velocity", "m/s", {gauge, component}, fast_);
+    acceleration_ = history_.add_series("gauges/acceleration", "m/s2", {gauge, component}, fast_);
+  }
+  for (const auto& [name, column] : {std::pair{"left", model_.left.get()}, std::pair{"right", model_.right.get()}})
+  {
+    if (!column) continue;
+    const std::string group = std::string("free_field/") + name + "/";
+    sides_.push_back({name, column, history_.add_series(group + "surface_displacement", "m", {component}, fast_),
+                      history_.add_series(group + "surface_velocity", "m/s", {component}, fast_),
+                      history_.add_series(group + "base_displacement", "m", {component}, fast_),
+                      history_.add_series(group + "base_velocity", "m/s", {component}, fast_)});
+  }
+  upgoing_ = history_.add_series("motion/upgoing_velocity", "m/s", {component}, fast_);
+  area_ = history_.add_series("slide/moved_area", "m2", {}, slow_);
+  shift_ = history_.add_series("slide/centre_of_mass_displacement", "m", {component}, slow_);
+  toe_ = history_.add_series("slide/toe", "m", {}, slow_);
+  peak_ = history_.add_series("slide/peak_velocity", "m/s", {}, slow_);
+  kinetic_ = history_.add_series("energy/kinetic", "J/m", {}, slow_);
+}
+
+void Observer::place_gauges()
+{
+  const Case& scene = session_.scene;
+  Domain& main = *model_.main;
+  // A gauge belongs to the material point that was at its place in the undeformed scene: it stands where the
+  // nearest particle has settled to.
+  for (const GaugePoint& point : scene.output.gauges.points)
+  {
+    const double y = std::min(point.y, scene.ground_height(point.x));
+    if (y < point.y)
+      session_.log.info("gauge {}: {} m above the ground, moved down to y = {:.3f} m", point.name, point.y - y, y);
+    const Particles& p = main.particles;
+    int nearest = 0;
+    const auto distance = [&](int k) { return std::hypot(p.reference_x[k] - point.x, p.reference_y[k] - y); };
+    for (int k = 1; k < p.size(); ++k)
+      if (distance(k) < distance(nearest)) nearest = k;
+    const auto [ux, uy] = displacement_of(main, nearest);
+    main.tracers.push_back({point.x + ux, y + uy, point.x, y, 0, 0});
+  }
+}
+
+void Observer::look(const Clock& clock, bool first)
+{
+  const OutputSettings& output = session_.scene.output;
+  if (first || clock.passed(output.gauges.every)) sample_gauges(clock);
+  if (first || clock.passed(slide_every)) sample_slide(clock);
+  if (first || clock.passed(output.frames.every)) write_frame(clock);
+}
+
+void Observer::sample_gauges(const Clock& clock)
+{
+  history_.start_row(clock.time(), fast_);
+  std::vector<double> u, v, a;
+  for (const Tracer& t : model_.main->tracers)
+  {
+    u.insert(u.end(), {t.x - t.reference_x, t.y - t.reference_y});
+    v.insert(v.end(), {t.velocity_x, t.velocity_y});
+  }
+  const double interval = clock.time() - last_time_;
+  for (std::size_t k = 0; k < v.size(); ++k)
+    a.push_back(last_velocity_.empty() || interval <= 0 ? 0 : (v[k] - last_velocity_[k]) / interval);
+  if (!u.empty())
+  {
+    history_.record(displacement_, u);
+    history_.record(velocity_, v);
+    history_.record(acceleration_, a);
+  }
+  last_velocity_ = v;
+  last_time_ = clock.time();
+  for (const Side& side : sides_)
+  {
+    const Domain& column = *side.column->domain;
+    const int top = side.column->particle_of_row(side.column->rows() - 1), bottom = side.column->particle_of_row(0);
+    history_.record(side.surface_displacement, displacement_of(column, top));
+    history_.record(side.surface_velocity, velocity_of(column, top));
+    history_.record(side.base_displacement, displacement_of(column, bottom));
+    history_.record(side.base_velocity, velocity_of(column, bottom));
+  }
+  history_.record(upgoing_, wave_.velocity(clock.time()));
+}
+
+std::array<double, 2> Observer::base_displacement() const
+{
+  if (sides_.empty()) return {};
+  return displacement_of(*sides_[0].column->domain, sides_[0].column->particle_of_row(0));
+}
+
+void Observer::sample_slide(const Clock& clock)
+{
+  const Domain& main = *model_.main;
+  const Particles& p = main.particles;
+  const auto [bx, by] = base_displacement();
+  double area = 0, mass = 0, sx = 0, sy = 0, right = -INFINITY, left = INFINITY;
+  std::vector<double> speeds;
+  for (int k = 0; k < p.size(); ++k)
+  {
+    const auto [ux, uy] = displacement_of(main, k);
+    const double rx = ux - bx, ry = uy - by;
+    if (rx * rx + ry * ry < moved * moved) continue;
+    area += model_.reference_volume[p.id[k]];
+    mass += p.mass[k];
+    sx += p.mass[k] * rx;
+    sy += p.mass[k] * ry;
+    right = std::max(right, p.x[k]);
+    left = std::min(left, p.x[k]);
+    speeds.push_back(std::hypot(p.velocity_x[k], p.velocity_y[k]));
+  }
+  double peak = 0;
+  if (!speeds.empty())
+  {
+    const auto place = speeds.begin() + static_cast<std::ptrdiff_t>(0.99 * (speeds.size() - 1));
+    std::nth_element(speeds.begin(), place, speeds.end());
+    peak = *place;
+  }
+  history_.start_row(clock.time(), slow_);
+  history_.record(area_, area);
+  history_.record(shift_, std::array{mass > 0 ? sx / mass : 0, mass > 0 ? sy / mass : 0});
+  history_.record(toe_, speeds.empty() ? NAN : sx >= 0 ? right : left);
+  history_.record(peak_, peak);
+  history_.record(kinetic_, kinetic_energy(main));
+  greatest_area_ = std::max(greatest_area_, area);
+  greatest_speed_ = std::max(greatest_speed_, peak);
+}
+
+void Observer::write_frame(const Clock& clock)
+{
+  const Domain& main = *model_.main;
+  Frame frame;
+  frame.time = clock.time();
+  frame.step = clock.step;
+  for (int k = 0; k < main.particles.size(); ++k)
+    frame.points.insert(frame.points.end(), {main.particles.x[k], main.particles.y[k], 0});
+  std::vector<std::string> fields = session_.scene.output.frames.fields;
+  if (std::find(fields.begin(), fields.end(), "volume") == fields.end()) fields.push_back("volume");
+  for (const std::string& name : fields) frame.fields.push_back(frame_field(main, name));
+  frame.ids = main.particles.id;
+  frame.materials.resize(main.particles.size());
+  for (std::size_t m = 0; m < main.materials.size(); ++m)
+    std::fill(frame.materials.begin() + main.material_begin[m], frame.materials.begin() + main.material_begin[m + 1], m);
+  const std::string name = frame_name(static_cast<std::int64_t>(frames_.size()));
+  mpm::write_frame(*session_.folder / name, frame, session_.provenance());
+  frames_.push_back({name, clock.time()});
+  write_series(session_.folder->path(), frames_);
+}
+
+void Observer::save(h5::File& file) const
+{
+  h5::Group group = file.create_group("output");
+  h5::Group rows = group.create_group("history");
+  history_.save(rows);
+  std::vector<double> times;
+  for (const auto& [name, time] : frames_) times.push_back(time);
+  group.write("frame_times", std::span<const double>(times), {times.size()}, "s");
+  group.write("gauge_velocity", std::span<const double>(last_velocity_), {last_velocity_.size()}, "m/s");
+  group.attribute("gauge_time", last_time_);
+  group.attribute("greatest_area", greatest_area_);
+  group.attribute("greatest_speed", greatest_speed_);
+}
+
+void Observer::load(const h5::File& file)
+{
+  const h5::Group group = file.open_group("output");
+  history_.load(group.open_group("history"));
+  for (const double time : group.read_doubles("frame_times"))
+    frames_.push_back({frame_name(static_cast<std::int64_t>(frames_.size())), time});
+  last_velocity_ = group.read_doubles("gauge_velocity");
+  last_time_ = group.attribute_double("gauge_time");
+  greatest_area_ = group.attribute_double("greatest_area");
+  greatest_speed_ = group.attribute_double("greatest_speed");
+}
+
+void Observer::write() const { history_.write(*session_.folder / "history.h5", session_.provenance()); }
+
+nlohmann::json Observer::summary() const
+{
+  nlohmann::json gauges;
+  const auto& points = session_.scene.output.gauges.points;
+  for (std::size_t g = 0; g < points.size(); ++g)
+  {
+    const Tracer& t = model_.main->tracers[g];
+    gauges[points[g].name] = {{"displacement", {t.x - t.reference_x, t.y - t.reference_y}}};
+  }
+  return {{"moved_area", greatest_area_}, {"peak_velocity", greatest_speed_}, {"gauges", gauges}};
+}
+} // namespace mpm

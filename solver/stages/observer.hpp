@@ -1,0 +1,50 @@
+#pragma once
+
+#include "io/history.hpp"
+#include "solver/stages/session.hpp"
+
+namespace mpm
+{
+/// What a seismic run writes down while it goes: gauges, free field, slide, frames.
+class Observer
+{
+public:
+  Observer(Session& session, Model& model, const IncomingWave& wave);
+  /// Places the gauges in the ground at the start of the stage.
+  void place_gauges();
+  /// Looks at the state that the clock has just reached; `first` at the start of the stage.
+  void look(const Clock& clock, bool first);
+  void save(h5::File& file) const;
+  void load(const h5::File& file);
+  /// Writes history.h5.
+  void write() const;
+  /// Peaks for the summary.
+  nlohmann::json summary() const;
+
+private:
+  struct Side
+  {
+    std::string name;
+    const FreeFieldColumn* column;
+    History::Series surface_displacement, surface_velocity, base_displacement, base_velocity;
+  };
+  void add_series();
+  void sample_gauges(const Clock& clock);
+  void sample_slide(const Clock& clock);
+  void write_frame(const Clock& clock);
+  std::array<double, 2> base_displacement() const;
+
+  Session& session_;
+  Model& model_;
+  const IncomingWave& wave_;
+  History history_;
+  History::Clock fast_ = 0, slow_ = 0;
+  History::Series displacement_ = 0, velocity_ = 0, acceleration_ = 0, upgoing_ = 0;
+  History::Series area_ = 0, shift_ = 0, toe_ = 0, peak_ = 0, kinetic_ = 0;
+  std::vector<Side> sides_;
+  std::vector<double> last_velocity_; ///< of the gauges at their last sample, m/s
+  double last_time_ = 0;
+  std::vector<std::pair<std::string, double>> frames_;
+  double greatest_area_ = 0, greatest_speed_ = 0;
+};
+} // namespace mpm

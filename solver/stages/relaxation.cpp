@@ -1,0 +1,211 @@
+#include "solver/stages/relaxation.hpp"
+
+#include "solver/mpm/parallel.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mpm
+{
+namespace
+{
+constexpr int check_every = 10;      // steps between looks at the criteria
+constexpr int held_checks = 10;      // so that they hold over 100 steps
+constexpr double handover = 10;      // elastic statics are done at this multiple of the wanted unbalance
+constexpr double creep_warning = 1e-3; // m/s
+
+/// Smooth ramp with zero slope and curvature at both ends.
+double ramp(double s)
+{
+  s = std::min(s, 1.0);
+  return s * s * s * (10 + s * (-15 + 6 * s));
+}
+
+/// Area that has yielded and greatest plastic strain.
+std::pair<double, double> yielded(const Domain& domain)
+{
+  double area = 0, greatest = 0;
+  for (std::size_t m = 0; m < domain.materials.size(); ++m)
+    for (std::size_t f = 0; f < domain.materials[m].state.size(); ++f)
+    {
+      if (domain.materials[m].state_fields()[f].name != "plastic_strain") continue;
+      const auto& strain = domain.materials[m].state[f];
+      for (std::size_t k = 0; k < strain.size(); ++k)
+      {
+        if (strain[k] > 0) area += domain.particles.volume[domain.material_begin[m] + k];
+        greatest = std::max(greatest, strain[k]);
+      }
+    }
+  return {area, greatest};
+}
+} // namespace
+
+Relaxation::Relaxation(Session& session, Model& model) : session_(session), model_(model)
+{
+  const Particles& p = model.main->particles;
+  for (int k = 0; k < p.size(); ++k)
+    weight_ += p.mass[k] * session.scene.statics.gravity * (p.y[k] - session.scene.domain.bottom);
+  for (const Material& material : model.main->materials) plasticity_ |= !material.state.empty();
+  set_phase(Phase::elastic);
+}
+
+void Relaxation::set_phase(Phase phase)
+{
+  phase_ = phase;
+  held_ = 0;
+  model_.for_each_domain([&](Domain& domain, const std::string&) { domain.plastic = phase == Phase::plastic; });
+}
+
+void Relaxation::load(const h5::File& file)
+{
+  const h5::Group group = file.open_group("relaxation");
+  set_phase(group.attribute_int("plastic") ? Phase::plastic : Phase::elastic);
+  held_ = group.attribute_int("held");
+}
+
+void Relaxation::save(const std::string& name, const Clock& clock)
+{
+  session_.write_checkpoint(name, "static", model_, clock,
+                            [&](h5::File& file)
+                            {
+                              h5::Group group = file.create_group("relaxation");
+                              group.attribute("plastic", std::int64_t(phase_ == Phase::plastic));
+                              group.attribute("held", held_);
+                              group.attribute("unbalanced", unbalanced_);
+                              group.attribute("kinetic", kinetic_);
+                            });
+}
+
+void Relaxation::step(Clock& clock, bool measure)
+{
+  const StaticSettings& s = session_.scene.statics;
+  const double now = -s.gravity * ramp(clock.time() / s.ramp);
+  model_.for_each_domain(
+      [&](Domain& domain, const std::string&)
+      {
+        domain.gravity_y = now;
+        domain.balance_wanted = measure;
+      });
+  advance(model_, clock.time(), clock.dt);
+  ++clock.step;
+}
+
+bool Relaxation::converged(const Clock& clock)
+{
+  const Convergence& until = session_.scene.statics.until;
+  unbalanced_ = kinetic_ = 0;
+  model_.for_each_domain([&](Domain& domain, const std::string&)
+                         { unbalanced_ = std::max(unbalanced_, domain.balance.ratio()); });
+  kinetic_ = kinetic_energy(*model_.main) / weight_;
+  if (clock.time() < session_.scene.statics.ramp) return false;
+  const double easier = phase_ == Phase::elastic && plasticity_ ? handover : 1;
+  const bool now = unbalanced_ < easier * until.unbalanced && kinetic_ < easier * until.kinetic;
+  held_ = now ? held_ + 1 : 0;
+  if (held_ < held_checks) return false;
+  if (phase_ == Phase::plastic || !plasticity_) return true;
+  session_.log.info("elastic equilibrium at t = {:.2f} s (unbalanced {:.1e}); from here the ground may yield",
+                    clock.time(), unbalanced_);
+  set_phase(Phase::plastic);
+  return false;
+}
+
+std::string Relaxation::failure() const
+{
+  const Convergence& until = session_.scene.statics.until;
+  std::string text;
+  if (unbalanced_ >= until.unbalanced)
+    text += fmt::format(" unbalanced force {:.2e} is not below {:.2e};", unbalanced_, until.unbalanced);
+  if (kinetic_ >= until.kinetic) text += fmt::format(" kinetic energy ratio {:.2e} is not below {:.2e};", kinetic_, until.kinetic);
+  if (phase_ == Phase::elastic && plasticity_) text += " the elastic state was not reached;";
+  if (text.empty()) text = " the criteria did not hold for 100 steps;";
+  return text;
+}
+
+void Relaxation::report(const Clock& clock)
+{
+  const auto [area, strain] = yielded(*model_.main);
+  const double speed = greatest_speed(*model_.main);
+  session_.log.info("static state at t = {:.2f} s: unbalanced {:.2e}, kinetic {:.2e}, greatest speed {:.2e} m/s, "
+                    "yielded {:.1f} m2, greatest plastic strain {:.2e}",
+                    clock.time(), unbalanced_, kinetic_, speed, area, strain);
+  if (speed > creep_warning)
+    session_.log.warn("the ground still creeps at {:.1e} m/s: it stands barely, or not", speed);
+}
+
+int Relaxation::run(Clock& clock)
+{
+  const Convergence& until = session_.scene.statics.until;
+  Progress progress(session_.log, {"static", model_.main->particles.size(), parallel::threads(), clock.step,
+                                   clock.time() / until.at_most});
+  const auto moment = [&]
+  {
+    return Moment{clock.time(), NAN, clock.step, kinetic_energy(*model_.main), greatest_speed(*model_.main)};
+  };
+  session_.log.info("static stage: {} particles, dt = {:.3e} s, gravity in {} s", model_.main->particles.size(), clock.dt,
+                    session_.scene.statics.ramp);
+  session_.loop_begins(clock.step);
+  bool done = false;
+  while (!done && clock.time() < until.at_most)
+  {
+    const bool measure = (clock.step + 1) % check_every == 0;
+    step(clock, measure);
+    if (measure) done = converged(clock);
+    if (clock.step % 100 == 0) check_particles(*model_.main, model_.reference_volume);
+    if (progress.due()) progress.update(moment());
+    if (!done && (session_.must_stop() || session_.checkpoint_due()))
+    {
+      save(checkpoint_name(clock.step), clock);
+      session_.folder->prune(session_.scene.output.checkpoint.keep);
+      if (session_.must_stop())
+      {
+        session_.finish("static", exit_code::interrupted, model_, clock, nlohmann::json::object());
+        return exit_code::interrupted;
+      }
+    }
+  }
+  progress.finish(moment());
+  report(clock);
+  const auto [area, strain] = yielded(*model_.main);
+  const nlohmann::json measures{{"unbalanced", unbalanced_},
+                                {"kinetic", kinetic_},
+                                {"greatest_speed", greatest_speed(*model_.main)},
+                                {"yielded_area", area},
+                                {"greatest_plastic_strain", strain}};
+  if (!done)
+  {
+    session_.log.error("static stage did not converge by t = {:.1f} s:{} the slope does not stand, or static.until "
+                       "asks for more than the scene gives (static.until.at_most allows more time)",
+                       clock.time(), failure());
+    session_.finish("static", exit_code::not_converged, model_, clock, measures);
+    return exit_code::not_converged;
+  }
+  save("final.h5", clock);
+  session_.folder->prune(0);
+  session_.finish("static", exit_code::done, model_, clock, measures);
+  return exit_code::done;
+}
+
+int predict(Session& session, Model& model, const Clock& clock, double duration)
+{
+  const Case& scene = session.scene;
+  for (const Material& material : model.main->materials)
+  {
+    const Elastic& e = material.elastic();
+    session.log.info("{}: density {} kg/m3, c_s {:.1f} m/s, c_p {:.1f} m/s, ten cells a wavelength up to {:.1f} Hz",
+                     material.name, e.density, e.shear_speed(), e.pressure_speed(),
+                     e.shear_speed() / (10 * scene.grid.spacing));
+  }
+  constexpr int probe_steps = 20;
+  using Wall = std::chrono::steady_clock;
+  advance(model, 0, clock.dt);
+  const auto start = Wall::now();
+  for (int k = 1; k <= probe_steps; ++k) advance(model, k * clock.dt, clock.dt);
+  const double per_step = std::chrono::duration<double>(Wall::now() - start).count() / probe_steps;
+  const double steps = duration / clock.dt;
+  const double megabytes = (model.main->particles.size() * 160.0 + model.main->grid.nodes() * 72.0) * 1e-6;
+  session.log.info("{} particles, about {:.0f} MB, dt {:.3e} s, {:.0f} steps for {} s, about {} on {} threads",
+                   model.main->particles.size(), megabytes, clock.dt, steps, duration,
+                   duration_text(per_step * steps), parallel::threads());
+  return exit_code::done;
+}
+} // namespace mpm

@@ -1,0 +1,209 @@
+// mpm-seismic: shakes a slope from its static state, and follows the slide.
+//
+//   mpm-seismic cases/slope/case.yaml --from run/static/final.h5 --out run/a
+//   mpm-seismic cases/slope/case.yaml --from run/static/final.h5 --motion record.AT2 --out run/b
+//   (the same again)                                          goes on after an interruption
+
+#include "io/checkpoint.hpp"
+#include "solver/mpm/parallel.hpp"
+#include "solver/stages/motion.hpp"
+#include "solver/stages/observer.hpp"
+#include "solver/stages/relaxation.hpp"
+
+#include <cmath>
+
+namespace mpm
+{
+namespace
+{
+constexpr int check_every = 100;       // steps between looks at particles and wave speeds
+constexpr double courant_limit = 0.7;  // beyond it the step is shortened (METHODS section 7)
+
+/// A step within the case's Courant number that divides the gauges' interval, so that they are sampled evenly.
+double choose_step(const Case& scene, const Domain& main)
+{
+  const double most = scene.safety * scene.grid.spacing / greatest_wave_speed(main);
+  const double every = scene.output.gauges.every;
+  return every / std::ceil(every / most);
+}
+
+/// Loads the static state and checks that it is one, and of this ground.
+void load_static_state(const Session& session, Model& model)
+{
+  const h5::File file = open_complete(session.options.from);
+  const auto refuse = [&](const std::string& why) { throw Error(exit_code::bad_input, session.options.from.string() + ": " + why); };
+  if (!file.exists("clock") || file.open_group("clock").attribute_string("stage") != "static" || !file.exists("relaxation"))
+    refuse("is no static state; give the final.h5 of mpm-static");
+  const std::vector<std::string> theirs = file.read_strings("ground"), ours = ground_settings(session.scene);
+  for (std::size_t k = 0; k < std::max(theirs.size(), ours.size()); ++k)
+  {
+    const std::string a = k < theirs.size() ? theirs[k] : "nothing", b = k < ours.size() ? ours[k] : "nothing";
+    if (a != b) refuse("was made with '" + a + "' where the case has '" + b + "'; run mpm-static for this case");
+  }
+  model.for_each_domain(
+      [&](Domain& domain, const std::string& column)
+      { load_particles(column.empty() ? file.open_group(".") : file.open_group("free_field/" + column), domain); });
+}
+
+/// Shortens the step when the ground has become so loose that waves outrun it.
+void check_step(Session& session, const Model& model, Clock& clock)
+{
+  const double h = session.scene.grid.spacing, speed = greatest_wave_speed(*model.main);
+  if (clock.dt * speed <= courant_limit * h) return;
+  clock.change_step(clock.dt / 2);
+  session.log.warn("t = {:.3f} s: the ground has loosened to a wave speed of {:.0f} m/s; the step is halved to {:.3e} s",
+                   clock.time(), speed, clock.dt);
+}
+
+/// What the engineer must know of the boundaries at the end.
+void report_boundaries(Session& session, const Model& model)
+{
+  for (const FreeFieldSide* side : model.sides)
+  {
+    const double apart = side->separation(*model.main);
+    session.log.info("{} side: up to {:.3f} m apart from its column at the end", side->name(), apart);
+    if (apart > 0.5 * session.scene.grid.spacing)
+      session.log.warn("the {} side and its free-field column have moved {:.2f} m apart, more than half a cell: the "
+                       "model yields or sinks near its side; widen the domain or deepen the rock", side->name(), apart);
+  }
+  for (const FreeFieldColumn* column : {model.left.get(), model.right.get()})
+  {
+    if (!column) continue;
+    double greatest = 0;
+    for (const Material& material : column->domain->materials)
+      if (!material.state.empty())
+        for (const double strain : material.state[0]) greatest = std::max(greatest, strain);
+    if (greatest > 0) session.log.info("{} yields: plastic strain up to {:.2e}", column->domain->name, greatest);
+  }
+}
+
+class Shaking
+{
+public:
+  Shaking(Session& session, Model& model, const Motion& motion)
+      : session_(session), model_(model), motion_(motion), observer_(session, model, *motion.wave)
+  {
+  }
+
+  void start(Clock& clock)
+  {
+    add_seismic_boundaries(model_, session_.scene, motion_.wave, false);
+    observer_.place_gauges();
+    observer_.look(clock, true);
+  }
+
+  void resume(const h5::File& file, Clock& clock)
+  {
+    add_seismic_boundaries(model_, session_.scene, motion_.wave, true);
+    load_model(file, model_, clock);
+    observer_.load(file);
+  }
+
+  int run(Clock& clock)
+  {
+    const double duration = session_.scene.seismic.duration;
+    Progress progress(session_.log, {"seismic", model_.main->particles.size(), parallel::threads(), clock.step,
+                                     clock.time() / duration});
+    const auto moment = [&]
+    {
+      return Moment{clock.time(), clock.time() / duration, clock.step, kinetic_energy(*model_.main),
+                    greatest_speed(*model_.main)};
+    };
+    session_.log.info("seismic stage: {} particles, dt = {:.3e} s, {} s", model_.main->particles.size(), clock.dt, duration);
+    session_.loop_begins(clock.step);
+    while (clock.time() < duration * (1 - 1e-9))
+    {
+      advance(model_, clock.time(), clock.dt);
+      ++clock.step;
+      observer_.look(clock, false);
+      if (clock.step % check_every == 0)
+      {
+        check_particles(*model_.main, model_.reference_volume);
+        check_step(session_, model_, clock);
+      }
+      if (progress.due()) progress.update(moment());
+      if (session_.must_stop() || session_.checkpoint_due())
+      {
+        save(checkpoint_name(clock.step), clock);
+        if (!session_.must_stop()) continue;
+        session_.log.info("stopped at t = {:.3f} s; the same command goes on", clock.time());
+        session_.finish("seismic", exit_code::interrupted, model_, clock, summary());
+        return exit_code::interrupted;
+      }
+    }
+    progress.finish(moment());
+    report_boundaries(session_, model_);
+    save("final.h5", clock);
+    session_.folder->prune(0);
+    session_.finish("seismic", exit_code::done, model_, clock, summary());
+    return exit_code::done;
+  }
+
+  void save(const std::string& name, const Clock& clock)
+  {
+    session_.write_checkpoint(name, "seismic", model_, clock, [&](h5::File& file) { observer_.save(file); });
+    observer_.write();
+    session_.folder->prune(session_.scene.output.checkpoint.keep);
+  }
+
+  nlohmann::json summary() const
+  {
+    nlohmann::json result = observer_.summary();
+    result["motion"] = motion_.title;
+    return result;
+  }
+
+private:
+  Session& session_;
+  Model& model_;
+  const Motion& motion_;
+  Observer observer_;
+};
+
+int run_seismic(Session& session)
+{
+  const Case& scene = session.scene;
+  const Options& options = session.options;
+  if (scene.seismic.duration <= 0)
+    throw Error(exit_code::bad_input, scene.path.string() + ": has no seismic section; nothing to shake");
+  if (scene.seismic.base == BaseKind::fixed && (scene.seismic.motion.horizontal || scene.seismic.motion.vertical))
+    session.log.warn("seismic.base: a fixed base takes no motion: the record is not applied");
+  if (options.from.empty() && scene.statics.gravity != 0)
+    throw Error(exit_code::usage, "mpm-seismic: --from is missing: give the final.h5 of mpm-static");
+
+  // 1. The motion and the scene.
+  const Motion motion = load_motion(session);
+  Model model = make_model(scene);
+  Clock clock;
+  clock.dt = choose_step(scene, *model.main);
+  if (options.check) return predict(session, model, clock, scene.seismic.duration);
+
+  // 2. The folder: ours, finished, or to be gone on with.
+  RunFolder::Identity identity{{"stage", "seismic"}};
+  for (const auto& setting : scene.settings) identity.push_back(setting);
+  identity.insert(identity.end(), motion.identity.begin(), motion.identity.end());
+  if (!options.from.empty()) identity.push_back({"from", sha256_file(options.from)});
+  session.open_folder(identity);
+  if (std::filesystem::exists(*session.folder / "final.h5"))
+  {
+    session.log.info("{}: is finished already; --fresh starts anew", (*session.folder / "final.h5").string());
+    return exit_code::done;
+  }
+
+  // 3. The state: where an interrupted run stopped, or the switch from the static state.
+  Shaking shaking(session, model, motion);
+  if (const auto file = session.newest_checkpoint()) shaking.resume(*file, clock);
+  else
+  {
+    if (options.from.empty()) session.log.info("no gravity: starts from a stress-free state");
+    else load_static_state(session, model);
+    shaking.start(clock);
+  }
+
+  // 4. Shaking and run-out.
+  return shaking.run(clock);
+}
+} // namespace
+} // namespace mpm
+
+int main(int argc, char** argv) { return mpm::run_program(argc, argv, "mpm-seismic", mpm::run_seismic); }

@@ -1,0 +1,92 @@
+#pragma once
+
+#include "io/case.hpp"
+#include "io/hdf5.hpp"
+#include "io/log.hpp"
+#include "io/run_folder.hpp"
+#include "solver/stages/model.hpp"
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+
+namespace mpm
+{
+/// The command line of both programs.
+struct Options
+{
+  std::string program;      ///< mpm-static or mpm-seismic
+  std::string command;      ///< as it was typed
+  std::filesystem::path case_file, out, from;
+  std::string motion, vertical; ///< records that replace the case's
+  double record_dt = NAN;       ///< s, of a record on the command line that does not tell it
+  std::string record_unit;      ///< likewise
+  double scale = 1;
+  std::vector<std::string> overrides;
+  int threads = 0;          ///< 0: as many as the machine has
+  double max_wall = 0;      ///< s, 0: no limit
+  bool check = false, fresh = false;
+  Verbosity verbosity = Verbosity::normal;
+};
+
+/// Step counter and time: t = t0 + (k - k0) dt, so that no rounding piles up.
+struct Clock
+{
+  double dt = 0;
+  std::int64_t step = 0;
+  double start_time = 0;
+  std::int64_t start_step = 0;
+
+  double time() const { return start_time + static_cast<double>(step - start_step) * dt; }
+  void change_step(double new_dt)
+  {
+    start_time = time();
+    start_step = step;
+    dt = new_dt;
+  }
+  /// Whether a multiple of `every` (s) was reached in the last step.
+  bool passed(double every) const;
+};
+
+/// What both stages share: options, case, log, output folder, the clock on the wall and the summary.
+class Session
+{
+public:
+  explicit Session(Options options);
+
+  /// Takes the output folder for a run of this identity; opens the log.
+  void open_folder(const RunFolder::Identity& identity);
+  /// Whether a signal or the wall-time limit asks for an end.
+  bool must_stop() const;
+  /// Whether the next checkpoint is due; asking resets nothing.
+  bool checkpoint_due() const;
+  /// Writes the state of a stage: `fill` adds what is the stage's own.
+  void write_checkpoint(const std::string& name, std::string_view stage, Model& model, const Clock& clock,
+                        const std::function<void(h5::File&)>& fill);
+  /// Newest checkpoint in the folder that is whole, or none; says which ones are not.
+  std::optional<h5::File> newest_checkpoint();
+  /// Ends the run's log and writes summary.json.
+  void finish(std::string_view stage, int exit, const Model& model, const Clock& clock, nlohmann::json more);
+  Provenance provenance() const;
+  double wall_seconds() const;
+  void loop_begins(std::int64_t step);
+
+  Options options;
+  Log log;
+  Case scene;
+  std::unique_ptr<RunFolder> folder;
+
+private:
+  using Wall = std::chrono::steady_clock;
+  Wall::time_point start_ = Wall::now(), last_checkpoint_ = start_, loop_start_ = start_;
+  std::int64_t first_step_ = 0;
+};
+
+/// Parses the command line, runs `stage` and maps every way to end to its exit code (INTERFACE: exit codes).
+int run_program(int argc, char** argv, const std::string& name, int (*stage)(Session&));
+
+/// Loads clock and domains of a checkpoint of the same stage.
+void load_model(const h5::File& file, Model& model, Clock& clock);
+
+/// The case's keys that shape the ground itself, as `key = value` lines: what static and seismic stage must share.
+std::vector<std::string> ground_settings(const Case& scene);
+} // namespace mpm

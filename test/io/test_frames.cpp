@@ -1,0 +1,84 @@
+#include "io/frames.hpp"
+#include "test/temporary_folder.hpp"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+using namespace mpm;
+using namespace mpm::test;
+
+namespace
+{
+Frame three_particles()
+{
+  Frame frame;
+  frame.time = 12.5;
+  frame.step = 61000;
+  frame.points = {0, 0, 0, 1.5, 0, 0, 3, 0.25, 0};
+  frame.fields = {{"velocity", "m/s", 2, {1, 2, 3, 4, 5, 6}}, {"plastic_strain", "1", 1, {0, 0.5, 1}}};
+  frame.ids = {7, 8, 9};
+  frame.materials = {0, 0, 1};
+  return frame;
+}
+} // namespace
+
+TEST_CASE("a frame is a VTKHDF 1.0 grid with one vertex a particle", "[io]")
+{
+  const TemporaryFolder folder;
+  write_frame(folder / frame_name(3), three_particles(), {});
+  const h5::File file = open_complete(folder / "frame-00003.hdf");
+  const h5::Group grid = file.open_group("VTKHDF");
+  CHECK(grid.attribute_ints("Version") == std::vector<std::int64_t>{1, 0});
+  CHECK(grid.attribute_string("Type") == "UnstructuredGrid");
+  CHECK(grid.read_ints("NumberOfPoints") == std::vector<std::int64_t>{3});
+  CHECK(grid.read_ints("NumberOfCells") == std::vector<std::int64_t>{3});
+  CHECK(grid.read_ints("NumberOfConnectivityIds") == std::vector<std::int64_t>{3});
+  CHECK(grid.read_ints("Connectivity") == std::vector<std::int64_t>{0, 1, 2});
+  CHECK(grid.read_ints("Offsets") == std::vector<std::int64_t>{0, 1, 2, 3});
+  CHECK(grid.read_bytes("Types") == std::vector<std::uint8_t>{1, 1, 1});
+  CHECK(grid.shape("Points") == std::vector<hsize_t>{3, 3});
+  CHECK(grid.shape("PointData/velocity") == std::vector<hsize_t>{3, 2});
+}
+
+TEST_CASE("a frame gives its fields under plain names with units", "[io]")
+{
+  const TemporaryFolder folder;
+  const Frame frame = three_particles();
+  write_frame(folder / "a.hdf", frame, {});
+  const h5::File file = open_complete(folder / "a.hdf");
+  CHECK(file.attribute_double("time") == frame.time);
+  CHECK(file.attribute_int("step") == frame.step);
+  const h5::Group particles = file.open_group("particles");
+  CHECK(particles.children() ==
+        std::vector<std::string>{"id", "material", "plastic_strain", "position", "velocity"});
+  CHECK(particles.read_doubles("velocity") == frame.fields[0].values);
+  CHECK(particles.attribute_string("units", "velocity") == "m/s");
+  CHECK(particles.read_ints("id") == frame.ids);
+}
+
+TEST_CASE("a field that does not fit its particles is refused", "[io]")
+{
+  const TemporaryFolder folder;
+  Frame frame = three_particles();
+  frame.fields[1].values.pop_back();
+  CHECK(code_of([&] { write_frame(folder / "a.hdf", frame, {}); }) == exit_code::bug);
+  CHECK_FALSE(std::filesystem::exists(folder / "a.hdf"));
+}
+
+TEST_CASE("a frame without particles is a valid file", "[io]")
+{
+  const TemporaryFolder folder;
+  write_frame(folder / "a.hdf", {}, {});
+  CHECK(open_complete(folder / "a.hdf").shape("particles/position") == std::vector<hsize_t>{0, 3});
+}
+
+TEST_CASE("the series file names every frame with its time", "[io]")
+{
+  const TemporaryFolder folder;
+  write_series(folder.path(), {{frame_name(0), 0.0}, {frame_name(1), 0.5}});
+  const auto series = nlohmann::json::parse(contents(folder / "frames.hdf.series"));
+  CHECK(series["file-series-version"] == "1.0");
+  CHECK(series["files"].size() == 2);
+  CHECK(series["files"][1]["name"] == "frame-00001.hdf");
+  CHECK(series["files"][1]["time"] == 0.5);
+}

@@ -1,0 +1,330 @@
+#include "io/record_reader.hpp"
+
+#include "io/error.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <filesystem>
+#include <functional>
+
+using namespace mpm;
+using Values = std::vector<double>;
+
+namespace
+{
+RecordSource source_of(std::string file = "record.AT2")
+{
+  return {std::move(file), "auto", NAN, "", {}};
+}
+
+RecordSource column_of(double dt = 0.005, std::string unit = "g")
+{
+  return {"record.txt", "column", dt, std::move(unit), {}};
+}
+
+struct Failure
+{
+  int code = 0;
+  std::string message = "accepted";
+};
+
+Failure failure_of(const std::function<void()>& action)
+{
+  try
+  {
+    action();
+  }
+  catch (const Error& error)
+  {
+    return {error.code, error.what()};
+  }
+  return {};
+}
+
+std::string refusal(std::string_view text, const RecordSource& source)
+{
+  const Failure failure = failure_of([&] { parse_record(text, source); });
+  CHECK(failure.code == exit_code::bad_input);
+  return failure.message;
+}
+
+void check_values(const Record& record, const Values& expected, double unit)
+{
+  REQUIRE(record.values.size() == expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    CHECK(record.values[i] == Approx(expected[i] * unit).epsilon(1e-15)); // one product
+}
+
+const std::string recordings = SOURCE_DIR "/../shared/motions/";
+bool skipped(const std::string& file)
+{
+  if (std::filesystem::exists(recordings + file)) return false;
+  WARN("skipped: " << file << " is not in ../shared/motions");
+  return true;
+}
+} // namespace
+
+TEST_CASE("an NGA-West2 record is read, with its trailing comma and missing leading zeros", "[io]")
+{
+  const auto record = parse_record("PEER NGA STRONG MOTION DATABASE RECORD\n"
+                                   "Chi-Chi Taiwan, 9/20/1999, CHY080, E\n"
+                                   "ACCELERATION TIME SERIES IN UNITS OF G\n"
+                                   "NPTS=      3, DT=   .0050 SEC,                    \n"
+                                   "  -.1480064E-03   .1486468E+00  -.1492857E-03\n",
+                                   source_of());
+  CHECK(record.format == "peer");
+  CHECK(record.dt == 0.005);
+  CHECK(record.quantity == Quantity::acceleration);
+  check_values(record, {-.1480064e-3, .1486468, -.1492857e-3}, 9.80665);
+}
+
+TEST_CASE("a PEER SMD record is read, with filter points after its unit", "[io]")
+{
+  const auto record =
+      parse_record("PEER STRONG MOTION DATABASE RECORD\n"
+                   "LOMA PRIETA 10/18/89 00:05, GILROY ARRAY #6, 090 (CDMG STATION 57383)\n"
+                   "ACCELERATION TIME HISTORY IN UNITS OF G. FILTER POINTS: HP=0.1 Hz LP=30. Hz\n"
+                   "NPTS=  2, DT= .01000 SEC\n 0.1 0.2\n",
+                   source_of("record.txt"));
+  CHECK(record.dt == 0.01);
+  check_values(record, {0.1, 0.2}, 9.80665);
+}
+
+TEST_CASE("an NGA 2005 header with its numbers before the keywords is read", "[io]")
+{
+  const auto record = parse_record("PEER NGA\nEVENT 1\nACCELERATION TIME HISTORY IN UNITS OF G\n"
+                                   "    4    0.0100    NPTS, DT\n 1 2\n3 4\n",
+                                   source_of());
+  CHECK(record.dt == 0.01);
+  check_values(record, {1, 2, 3, 4}, 9.80665);
+}
+
+TEST_CASE("prose that holds numbers above the header is not data", "[io]")
+{
+  const auto record = parse_record("Data for El Centro 1940 North South Component\n"
+                                   "1559 points at equal spacing of 0.02 sec in the format of 8F10.5\n"
+                                   "12 34 56\nThe units are (g)\n"
+                                   "NPTS=  2, DT= .02000 SEC\n   0.00630   0.00364\n",
+                                   source_of("record.txt"));
+  CHECK(record.dt == 0.02);
+  check_values(record, {0.0063, 0.00364}, 9.80665);
+}
+
+TEST_CASE("velocity and displacement records are told by extension or header, never taken as g", "[io]")
+{
+  const std::string header = "A\nB\nC\nNPTS= 2, DT= .01 SEC\n 10 20\n";
+  const auto velocity = parse_record(header, source_of("record.VT2"));
+  CHECK(velocity.quantity == Quantity::velocity);
+  check_values(velocity, {10, 20}, 0.01);
+  CHECK(parse_record(header, source_of("record.dt2")).quantity == Quantity::displacement);
+
+  const std::string spoken = "A\nB\nVELOCITY TIME SERIES IN UNITS OF CM/S\nNPTS= 2, DT= .01 SEC\n 10 20\n";
+  CHECK(parse_record(spoken, source_of("record.txt")).quantity == Quantity::velocity);
+  CHECK_THAT(refusal(spoken, source_of("record.AT2")),
+             Catch::Contains("record.AT2:3: ") && Catch::Contains("cm/s"));
+  auto as_g = source_of("record.txt");
+  as_g.unit = "g";
+  CHECK_THAT(refusal(spoken, as_g), Catch::Contains("the file is in cm/s and the case says g"));
+  as_g.file = "record.VT2";
+  CHECK_THAT(refusal(header, as_g), Catch::Contains("holds velocity"));
+  CHECK_THAT(refusal(header, source_of("record.txt")), Catch::Contains("give unit"));
+}
+
+TEST_CASE("CR LF, tabs, blank lines, D exponents and touching values read as what they mean", "[io]")
+{
+  const auto record = parse_record("\xEF\xBB\xBF"
+                                   "A\r\nB\r\nUNITS OF G\r\nNPTS=\t7, DT=\t.01 SEC\r\n\r\n"
+                                   "-.1234567E-01-.1234567E-01\t1.5D-2\r\n\r\n\t+.5+.25 2. 3\r\n",
+                                   source_of());
+  check_values(record, {-.01234567, -.01234567, .015, .5, .25, 2, 3}, 9.80665);
+}
+
+TEST_CASE("values that touch without a sign are refused, for their border is a guess", "[io]")
+{
+  CHECK_THAT(refusal("A\nB\nUNITS OF G\nNPTS= 2, DT= .01 SEC\n0.123450.67890\n", source_of()),
+             Catch::Contains("record.AT2:5: expected numbers and found '0.123450.67890'"));
+}
+
+TEST_CASE("fewer values than NPTS is an error with both numbers, more is padding", "[io]")
+{
+  CHECK_THAT(refusal("UNITS OF G\nNPTS= 5, DT= .01 SEC\n1 2 3\n", source_of()),
+             Catch::Contains("record.AT2:2: NPTS is 5") && Catch::Contains("holds 3 values"));
+  const auto padded = parse_record("UNITS OF G\nNPTS= 2, DT= .01 SEC\n1 2 0 0\n0 0\n", source_of());
+  check_values(padded, {1, 2}, 9.80665);
+  CHECK(padded.notes.size() == 1);
+}
+
+TEST_CASE("a dt in the case that contradicts the file is refused", "[io]")
+{
+  auto source = source_of();
+  source.dt = 0.005;
+  CHECK_THAT(refusal("UNITS OF G\nNPTS= 2, DT= .01 SEC\n1 2\n", source),
+             Catch::Contains("0.01 s and the case says"));
+  source.dt = 0.01;
+  CHECK(parse_record("UNITS OF G\nNPTS= 2, DT= .01 SEC\n1 2\n", source).dt == 0.01);
+}
+
+TEST_CASE("a single column takes dt and unit from the case", "[io]")
+{
+  const auto record = parse_record("-3.52449E-5\n\n1.461E-4\n", column_of());
+  CHECK(record.dt == 0.005);
+  check_values(record, {-3.52449e-5, 1.461e-4}, 9.80665);
+  CHECK(parse_record("acceleration\n1\n2\n", column_of()).values.size() == 2);
+  CHECK_THAT(refusal("1\n2\n", column_of(NAN)), Catch::Contains("give dt"));
+  CHECK_THAT(refusal("1\n2\n", column_of(0.01, "")), Catch::Contains("give unit"));
+  CHECK_THAT(refusal("1\n2\n", column_of(0.01, "ft/s2")), Catch::Contains("unknown unit 'ft/s2'"));
+  CHECK_THAT(refusal("1\n2 3\n", column_of()),
+             Catch::Contains("record.txt:2: expected 1 number and found 2"));
+  CHECK_THAT(refusal("1\n2\nend\n", column_of()),
+             Catch::Contains("record.txt:3: ") && Catch::Contains("'end'"));
+  CHECK_THAT(refusal("1\nnan\n", column_of()), Catch::Contains("record.txt:2: "));
+  CHECK_THAT(refusal("1\n****\n", column_of()), Catch::Contains("record.txt:2: "));
+}
+
+TEST_CASE("units come out in SI, and a quantity that is not the unit's is refused", "[io]")
+{
+  const std::vector<std::pair<std::string, double>> units{{"g", 9.80665}, {"gal", 0.01},  {"cm/s2", 0.01},
+                                                          {"m/s2", 1},    {"cm/s", 0.01}, {"m/s", 1},
+                                                          {"cm", 0.01},   {"m", 1}};
+  for (const auto& [unit, si] : units)
+    check_values(parse_record("1\n2\n", column_of(0.01, unit)), {1, 2}, si);
+  auto source = column_of(0.01, "cm/s");
+  CHECK(parse_record("1\n2\n", source).quantity == Quantity::velocity);
+  source.quantity = Quantity::acceleration;
+  CHECK_THAT(refusal("1\n2\n", source), Catch::Contains("correct quantity or unit"));
+}
+
+TEST_CASE("two columns are read with blanks, commas or semicolons, and an optional header line", "[io]")
+{
+  RecordSource source{"record.csv", "two_column", NAN, "m/s2", {}};
+  for (std::string text : {"0 1\n0.01 2\n0.02 -3\n", "0,1\n0.01,2\n0.02,-3\n", "0; 1\n0.01; 2\n0.02; -3\n",
+                           "time (s), acceleration (m/s2)\n0, 1\n.01, 2\n.02, -3\n"})
+  {
+    const auto record = parse_record(text, source);
+    CHECK(record.dt == Approx(0.01).epsilon(1e-15));
+    check_values(record, {1, 2, -3}, 1);
+    source.format = "auto";
+    CHECK(parse_record(text, source).format == "two_column");
+  }
+  source.unit = "";
+  check_values(parse_record("t [s]; a [gal]\n0;1\n1;2\n", source), {1, 2}, 0.01);
+  CHECK(parse_record("t [s]; a [gal]\n5;1\n6;2\n", source).notes.size() == 1); // does not begin at 0
+}
+
+TEST_CASE("uneven time in two columns is refused at its line, rounded time is not", "[io]")
+{
+  const RecordSource source{"record.csv", "two_column", NAN, "g", {}};
+  CHECK_THAT(refusal("0 1\n.01 2\n.02 3\n.04 4\n.05 5\n", source),
+             Catch::Contains("record.csv:4: time goes"));
+  CHECK_THAT(refusal("0 1\n.01 2\n.01 3\n.02 4\n", source), Catch::Contains("record.csv:3: "));
+  CHECK_THAT(refusal("1 1\n.9 2\n.8 3\n", source), Catch::Contains("record.csv:2: "));
+  std::string rounded; // 128 Hz printed to 1 ms
+  for (int i = 0; i < 129; ++i) rounded += std::to_string(std::round(i / 0.128) / 1000).substr(0, 5) + " 1\n";
+  CHECK(parse_record(rounded, source).dt == Approx(1. / 128).epsilon(1e-12));
+}
+
+TEST_CASE("formats that are not read are refused by their name", "[io]")
+{
+  const std::vector<std::pair<std::string, std::string>> samples{
+      {"Origin Time  2018\nDir.              E-W\nScale Factor      3920(gal)/6182761\nMemo.\n 1 2\n",
+       "K-NET"},
+      {"Origin Time  2000\nDir.              5\nScale Factor      2000(gal)/8388608\nMemo.\n 1 2\n",
+       "KiK-net"},
+      {"Origin Time  2000\nDir.              2\nScale Factor      2000(gal)/8388608\nMemo.\n 1 2\n",
+       "borehole"},
+      {"2 CORRECTED ACCELEROGRAM   \r\n*    \r\nSAF0A\r\n", "SMC"},
+      {"1 2 3\n4 5 6\n", "3 numbers a line"},
+      {"<!DOCTYPE html>\n<html>\n", "HTML"},
+      {std::string("\0\1\2\0", 4), "binary"},
+      {"", "empty"},
+      {"no record\n", "no line of numbers"}};
+  for (const auto& [text, name] : samples)
+    CHECK_THAT(refusal(text, source_of("r.dat")), Catch::Contains(name));
+}
+
+TEST_CASE("a record that is missing or a folder is told from one that is bad", "[io]")
+{
+  CHECK(failure_of([] { read_record(source_of("/nowhere/record.AT2")); }).code == exit_code::input_missing);
+  CHECK(failure_of([] { read_record(source_of(SOURCE_DIR)); }).code == exit_code::input_missing);
+}
+
+TEST_CASE("the synthetic motion is at rest at its end, with the peak and duration it was made for", "[io]")
+{
+  const auto record = read_record(source_of(SOURCE_DIR "/cases/motions/synthetic.AT2"));
+  CHECK(record.dt == 0.01);
+  CHECK(record.values.size() == 4000);
+  const auto report = make_ground_motion(record, {}).report;
+  CHECK(report.warnings.empty());
+  CHECK(report.pga / standard_gravity == Approx(0.25).margin(1e-4));
+  CHECK(report.pgv == Approx(0.225).margin(0.025));
+  CHECK(report.d5_95 == Approx(17.5).margin(2.5));
+  // 4000 values of 7 digits after the first: each off by at most 5e-8 of up to 0.25 g
+  CHECK(std::abs(report.raw_residual_velocity) < 1e-6);
+  CHECK(std::abs(report.raw_residual_displacement) < 1e-5);
+}
+
+TEST_CASE("real recordings have the peaks, times and durations they are known for", "[io]")
+{
+  struct Known
+  {
+    std::string file;
+    double dt;
+    bool dt_in_file;
+    std::size_t count;
+    double pga, pga_time, pgv, pgv_rounding; // g, s, m/s
+  };
+  const std::vector<Known> table{
+      {"LomaPrieta1989_G06-090.txt", .005, false, 7758, .170, 4.63, .142, 5e-4},
+      {"ImperialValley1979_CHI-282.txt", .01, false, 3879, .254, 11.94, .298, 5e-4},
+      {"RSN1231_CHICHI_CHY080-E.AT2", .005, true, 18000, .809, 38.0, 1.07, 5e-3},
+      {"RSN1231_CHICHI_CHY080-N.AT2", .005, true, 18000, .860, 38.0, .93, 5e-3},
+      {"RSN1231_CHICHI_CHY080-V.AT2", .005, true, 18000, .730, 38.0, .41, 5e-3},
+      {"ElCentro1940.AT2", .02, true, 1559, .319, NAN, .36, 5e-3},
+  };
+  for (const Known& known : table)
+  {
+    if (skipped(known.file)) continue;
+    INFO(known.file);
+    const auto record = read_record({recordings + known.file, "auto", known.dt_in_file ? NAN : known.dt,
+                                     known.dt_in_file ? "" : "g", Quantity::acceleration});
+    CHECK(record.dt == known.dt);
+    CHECK(record.values.size() == known.count);
+    MotionProcessing raw;
+    raw.baseline = Baseline::none;
+    const auto report = make_ground_motion(record, raw).report;
+    CHECK(report.pga / standard_gravity == Approx(known.pga).margin(5e-4)); // the table's last digit
+    if (!std::isnan(known.pga_time)) CHECK(report.pga_time == Approx(known.pga_time).margin(0.1));
+    CHECK(report.pgv == Approx(known.pgv).margin(known.pgv_rounding));
+    const auto processed = make_ground_motion(record, {});
+    CHECK(processed.velocity.back() == 0);
+    CHECK(processed.report.warnings.empty());
+    UNSCOPED_INFO(known.file);
+  }
+}
+
+TEST_CASE("samples of other archives' formats are each refused by name", "[io]")
+{
+  const std::vector<std::pair<std::string, std::string>> samples{
+      {"0111a.smc", "SMC"},
+      {"017m30bt.s0a", "USC"},
+      {"2-ECU.dat", "CWB"},
+      {"20170720223109_0921.head60.txt", "AFAD"},
+      {"20180212_211557_WPWS_20.V2A", "GeoNet"},
+      {"AICH040010061330.EW2", "KiK-net"},
+      {"AOM0011801241951.EW", "K-NET"},
+      {"CE58667.head60.V2", "CSMIP"},
+      {"Cosmos12TimeSeriesTest.v1", "COSMOS"},
+      {"us1000hyfh_akbmrp_AKBMR--n.1000hyfh.BNZ.--.acc.head60.V2c", "COSMOS"},
+  };
+  for (const auto& [file, name] : samples)
+  {
+    if (skipped("formats/" + file)) continue;
+    for (std::string format : {"auto", "peer", "column", "two_column"})
+    {
+      const RecordSource source{recordings + "formats/" + file, format, 0.01, "g", {}};
+      const Failure failure = failure_of([&] { read_record(source); });
+      CHECK(failure.code == exit_code::bad_input);
+      CHECK_THAT(failure.message, Catch::Contains("looks like " + name));
+    }
+  }
+}
