@@ -42,7 +42,10 @@ void load_static_state(const Session& session, Model& model)
   }
   model.for_each_domain(
       [&](Domain& domain, const std::string& column)
-      { load_particles(column.empty() ? file.open_group(".") : file.open_group("free_field/" + column), domain); });
+      {
+        if (column.empty()) load_particles(file, domain);
+        else load_particles(file.open_group("free_field/" + column), domain);
+      });
 }
 
 /// Shortens the step when the ground has become so loose that waves outrun it.

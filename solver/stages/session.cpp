@@ -211,7 +211,10 @@ void load_model(const h5::File& file, Model& model, Clock& clock)
   clock.start_step = time.attribute_int("start_step");
   model.for_each_domain(
       [&](Domain& domain, const std::string& column)
-      { load_domain(column.empty() ? file.open_group(".") : file.open_group("free_field/" + column), domain); });
+      {
+        if (column.empty()) load_domain(file, domain);
+        else load_domain(file.open_group("free_field/" + column), domain);
+      });
 }
 
 std::vector<std::string> ground_settings(const Case& scene)
