@@ -22,7 +22,7 @@ inline int processors() { return omp_get_num_procs(); }
 template <class Function>
 void for_each(int count, const Function& f)
 {
-#pragma omp parallel for schedule(dynamic)
+#pragma omp parallel for schedule(dynamic) if (count > 1)
   for (int i = 0; i < count; ++i) f(i);
 }
 
@@ -30,6 +30,12 @@ void for_each(int count, const Function& f)
 template <class First, class Second>
 void together(const First& first, const Second& second)
 {
+  if (threads() == 1)
+  {
+    first();
+    second();
+    return;
+  }
 #pragma omp parallel sections num_threads(2)
   {
 #pragma omp section

@@ -59,9 +59,12 @@ void add_walls(Domain& domain, std::span<const Wall> walls)
   for (const Wall& wall : walls) domain.boundaries.push_back(std::make_unique<MirroredWall>(wall));
 }
 
+/// Nothing moves, and displacements count from here.
 void come_to_rest(Domain& domain)
 {
   Particles& p = domain.particles;
+  p.reference_x = p.x;
+  p.reference_y = p.y;
   for (auto* values : {&p.velocity_x, &p.velocity_y, &p.affine_xx, &p.affine_xy, &p.affine_yx, &p.affine_yy})
     std::fill(values->begin(), values->end(), 0.0);
 }
@@ -132,7 +135,6 @@ void add_seismic_boundaries(Model& model, const Case& scene, std::shared_ptr<con
         domain.damping = 0;
         domain.gravity_y = -scene.statics.gravity;
         domain.plastic = true;
-        if (!restarting) come_to_rest(domain);
         switch_boundaries(domain, scene, leaving, staying, wave, restarting);
       });
   if (!roller)
@@ -145,7 +147,13 @@ void add_seismic_boundaries(Model& model, const Case& scene, std::shared_ptr<con
       model.sides.push_back(side.get());
       model.main->boundaries.push_back(std::move(side));
     }
-  if (!restarting) model.for_each_domain([](Domain& domain, const std::string&) { sort_particles(domain); });
+  if (restarting) return;
+  model.for_each_domain(
+      [](Domain& domain, const std::string&)
+      {
+        come_to_rest(domain);
+        sort_particles(domain);
+      });
 }
 
 void advance(Model& model, double time, double dt)

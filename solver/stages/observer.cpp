@@ -105,7 +105,7 @@ void Observer::place_gauges()
   const Case& scene = session_.scene;
   Domain& main = *model_.main;
   // A gauge belongs to the material point that was at its place in the undeformed scene: it stands where the
-  // nearest particle has settled to.
+  // nearest particle has settled to, and its displacement counts from there.
   for (const GaugePoint& point : scene.output.gauges.points)
   {
     const double y = std::min(point.y, scene.ground_height(point.x));
@@ -117,7 +117,7 @@ void Observer::place_gauges()
     for (int k = 1; k < p.size(); ++k)
       if (distance(k) < distance(nearest)) nearest = k;
     const auto [ux, uy] = displacement_of(main, nearest);
-    main.tracers.push_back({point.x + ux, y + uy, point.x, y, 0, 0});
+    main.tracers.push_back({point.x + ux, y + uy, point.x + ux, y + uy, 0, 0});
   }
 }
 

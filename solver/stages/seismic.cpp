@@ -90,8 +90,8 @@ public:
 
   void start(Clock& clock)
   {
-    add_seismic_boundaries(model_, session_.scene, motion_.wave, false);
     observer_.place_gauges();
+    add_seismic_boundaries(model_, session_.scene, motion_.wave, false);
     observer_.look(clock, true);
   }
 

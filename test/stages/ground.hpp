@@ -1,0 +1,74 @@
+#pragma once
+// Level ground and what shakes it, for tests against closed forms.
+
+#include "io/case.hpp"
+#include "solver/stages/model.hpp"
+#include "test/temporary_folder.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+namespace mpm::test
+{
+/// A case from text.
+inline Case scene_from(const std::string& text)
+{
+  const TemporaryFolder folder;
+  put(folder.path() / "case.yaml", text);
+  return load_case(folder.path() / "case.yaml");
+}
+
+/// Rock (rho 2200 kg/m3, E 250 MPa, nu .25) up to `rock` m, soil (1800, 40 MPa, .35) up to `top` m, `width` m wide.
+inline std::string level_ground(double spacing, int per_cell, double width, double rock, double top, double gravity)
+{
+  return fmt::format(R"(schema: seismpm-case/1
+name: level
+grid: {{spacing: {} m, particles_per_cell: {}}}
+domain: {{x: [0 m, {} m], bottom: 0 m}}
+surfaces:
+  rockhead: {{points: [[0 m, {} m], [{} m, {} m]]}}
+  ground: {{points: [[0 m, {} m], [{} m, {} m]]}}
+regions:
+  - {{material: rock, below: rockhead}}
+  - {{material: soil, above: rockhead, below: ground}}
+materials:
+  rock: {{model: elastic, density: 2200 kg/m3, young_modulus: 250 MPa, poisson_ratio: 0.25}}
+  soil: {{model: elastic, density: 1800 kg/m3, young_modulus: 40 MPa, poisson_ratio: 0.35}}
+static: {{gravity: {} m/s2}}
+seismic:
+  duration: 1 s
+  base: {{kind: compliant}}
+  sides: {{kind: free_field}}
+  motion: {{recorded_as: upgoing, horizontal: built_in}}
+)",
+                     spacing, per_cell, width, rock, width, rock, top, width, top, gravity);
+}
+
+/// An upgoing velocity pulse v = peak * sin^4(pi t / length) for 0 < t < length (s): smooth to its third derivative.
+inline GroundMotion pulse(double peak, double length, double total)
+{
+  GroundMotion motion;
+  motion.dt = length / 400;
+  for (double t = 0; t < total; t += motion.dt)
+  {
+    const double a = std::numbers::pi * t / length, s = t < length ? std::sin(a) : 0;
+    motion.velocity.push_back(peak * std::pow(s, 4));
+    motion.acceleration.push_back(peak * 4 * std::pow(s, 3) * std::cos(a) * std::numbers::pi / length);
+  }
+  return motion;
+}
+
+/// Closed form of `pulse`.
+inline double pulse_at(double peak, double length, double t)
+{
+  return t > 0 && t < length ? peak * std::pow(std::sin(std::numbers::pi * t / length), 4) : 0;
+}
+
+inline double stable_step(const Case& scene, const Model& model)
+{
+  return scene.safety * scene.grid.spacing / greatest_wave_speed(*model.main);
+}
+} // namespace mpm::test
