@@ -104,6 +104,21 @@ public:
 
   int run(Clock& clock)
   {
+    try
+    {
+      return go(clock);
+    }
+    catch (const Diverged&)
+    {
+      observer_.write();
+      session_.finish("seismic", exit_code::diverged, model_, clock, summary());
+      throw;
+    }
+  }
+
+private:
+  int go(Clock& clock)
+  {
     const double duration = session_.scene.seismic.duration;
     Progress progress(session_.log, {"seismic", model_.main->particles.size(), parallel::threads(), clock.step,
                                      clock.time() / duration});
@@ -156,7 +171,6 @@ public:
     return result;
   }
 
-private:
   Session& session_;
   Model& model_;
   const Motion& motion_;

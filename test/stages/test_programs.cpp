@@ -5,15 +5,14 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <csignal>
-#include <cstring>
 #include <fcntl.h>
 #include <functional>
 #include <map>
 #include <numbers>
-#include <sstream>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <thread>
@@ -22,14 +21,14 @@
 using namespace mpm;
 using namespace mpm::test;
 using Catch::Matchers::Contains;
-using Catch::Matchers::Matches;
 namespace fs = std::filesystem;
 
 namespace
 {
 using Arguments = std::vector<std::string>;
 
-/// A cut of 5 m in softening clay over rock; the clay yields under the motion. Checkpoints come several times a run.
+/// A cut of 5 m in softening clay over rock; the clay yields under the motion. Checkpoints come several times
+/// a run.
 const std::string cut = R"(schema: seismpm-case/1
 name: cut
 grid: {spacing: 1 m, particles_per_cell: 2}
@@ -51,15 +50,15 @@ materials:
     softening: {displacement: 0.2 m}
 static:
   gravity: 9.81 m/s2
-  ramp: 1 s
-  until: {unbalanced: 1e-3, kinetic: 1e-6, at_most: 30 s}
+  ramp: 3 s
+  until: {unbalanced: 1e-4, kinetic: 1e-8, at_most: 30 s}
 seismic:
   duration: 2 s
   motion: {recorded_as: outcrop, horizontal: {file: shake.txt, format: column, dt: 0.01 s, unit: m/s2}}
 output:
   frames: {every: 0.1 s}
   gauges: {points: {crest: [10.5 m, 14 m], toe: [18.5 m, 9 m]}}
-  checkpoint: {every: 0.15 s, keep: 2}
+  checkpoint: {every: 0.05 s, keep: 2}
 )";
 
 /// 2 s of a sine in m/s2 that grows and fades.
@@ -86,7 +85,8 @@ class Running
 {
 public:
   /// No file that it writes may pass `most_bytes`, 0: no limit.
-  Running(const std::string& program, Arguments arguments, const fs::path& said, rlim_t most_bytes = 0) : said_(said)
+  Running(const std::string& program, Arguments arguments, const fs::path& said, rlim_t most_bytes = 0)
+      : said_(said)
   {
     arguments.insert(arguments.begin(), std::string(BINARY_DIR) + "/" + program);
     std::vector<char*> argv;
@@ -95,6 +95,7 @@ public:
     pid_ = fork();
     if (pid_ < 0) throw std::runtime_error("cannot fork");
     if (pid_ > 0) return;
+    setenv("OMP_WAIT_POLICY", "passive", 1); // two threads, and perhaps fewer processors
     const int file = open(said_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
     dup2(file, STDOUT_FILENO);
     dup2(file, STDERR_FILENO);
@@ -151,7 +152,8 @@ std::vector<fs::path> checkpoints(const fs::path& folder)
   std::vector<fs::path> found;
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(folder, ignored))
-    if (const std::string name = entry.path().filename(); name.starts_with("checkpoint-") && name.ends_with(".h5"))
+    if (const std::string name = entry.path().filename();
+        name.starts_with("checkpoint-") && name.ends_with(".h5"))
       found.push_back(entry.path());
   std::sort(found.begin(), found.end());
   return found;
@@ -176,7 +178,8 @@ public:
   /// From the state in the folder `static`.
   Arguments seismic_arguments(const std::string& out, const Arguments& more = {}) const
   {
-    return joined({path("case.yaml"), "--from", path("static/final.h5"), "--out", path(out), "--threads", "1"}, more);
+    return joined(
+        {path("case.yaml"), "--from", path("static/final.h5"), "--out", path(out), "--threads", "1"}, more);
   }
 
   Ending run(const std::string& program, const Arguments& arguments, rlim_t most_bytes = 0) const
@@ -232,8 +235,9 @@ std::string dataset(const h5::Group& group, const std::string& name)
 
 void collect(const h5::Group& group, const std::string& path, Contents& found)
 {
-  for (const char* name : {"step", "time", "dt", "start_time", "start_step", "drift", "plastic", "held", "unbalanced",
-                           "kinetic", "begin", "end", "gauge_time", "greatest_area", "greatest_speed"})
+  for (const char* name :
+       {"step", "time", "dt", "start_time", "start_step", "drift", "plastic", "held", "unbalanced", "kinetic",
+        "begin", "end", "gauge_time", "greatest_area", "greatest_speed"})
     if (group.has_attribute(name)) found[path + "@" + name] = bytes(group.attribute_doubles(name));
   for (const std::string& name : group.children())
   {
@@ -257,8 +261,10 @@ std::string difference(const fs::path& one, const fs::path& other)
   const Contents a = contents_of(one), b = contents_of(other);
   std::string text;
   for (const auto& [path, value] : a)
-    if (const auto same = b.find(path); same == b.end()) text += path + " is missing\n";
-    else if (same->second != value) text += path + " differs\n";
+    if (const auto same = b.find(path); same == b.end())
+      text += path + " is missing\n";
+    else if (same->second != value)
+      text += path + " differs\n";
   for (const auto& [path, value] : b)
     if (!a.contains(path)) text += path + " is too many\n";
   return a.empty() ? "nothing to compare" : text;
@@ -295,7 +301,8 @@ double greatest_plastic_strain(const fs::path& final)
 }
 
 /// The ways in which a run may be cut short. Each leaves `out` to be gone on with.
-void terminate(const Bench& bench, const std::string& program, const Arguments& arguments, const fs::path& out)
+void terminate(const Bench& bench, const std::string& program, const Arguments& arguments,
+               const fs::path& out)
 {
   Running running(program, arguments, bench / "said.txt");
   REQUIRE(running.wait_until([&] { return !checkpoints(out).empty(); }));
@@ -306,8 +313,8 @@ void terminate(const Bench& bench, const std::string& program, const Arguments& 
   CHECK_FALSE(fs::exists(out / "final.h5"));
 }
 
-void kill_after_checkpoints(const Bench& bench, const std::string& program, const Arguments& arguments, const fs::path& out,
-                            std::size_t count)
+void kill_after_checkpoints(const Bench& bench, const std::string& program, const Arguments& arguments,
+                            const fs::path& out, std::size_t count)
 {
   Running running(program, arguments, bench / "said.txt");
   REQUIRE(running.wait_until([&] { return checkpoints(out).size() >= count; }));
@@ -316,20 +323,18 @@ void kill_after_checkpoints(const Bench& bench, const std::string& program, cons
   CHECK_FALSE(fs::exists(out / "final.h5"));
 }
 
-void tear(const fs::path& file) { fs::resize_file(file, fs::file_size(file) / 2); }
-
-/// Runs the command in slices of wall time until it is done; the number of slices.
-int run_in_slices(const Bench& bench, const std::string& program, Arguments arguments)
+void tear(const fs::path& file)
 {
-  arguments.insert(arguments.end(), {"--max-wall", "0.4 s"});
-  for (int slices = 1; slices < 100; ++slices)
-  {
-    const Ending ending = bench.run(program, arguments);
-    INFO(ending.said);
-    if (ending.code == 0) return slices;
-    REQUIRE(ending.code == 75);
-  }
-  return 100;
+  fs::resize_file(file, fs::file_size(file) / 2);
+}
+
+void run_out_of_time(const Bench& bench, const std::string& program, Arguments arguments, const fs::path& out)
+{
+  arguments.insert(arguments.end(), {"--max-wall", "0.1 s"});
+  const Ending ending = bench.run(program, arguments);
+  INFO(ending.said);
+  REQUIRE(ending.code == 75);
+  CHECK(checkpoints(out).size() == 1);
 }
 
 /// The files of a folder and when they were written.
@@ -356,7 +361,9 @@ TEST_CASE("a static run that was cut short and resumed ends bit for bit as one t
   bench.make_static();
   for (const std::string threads : {"1", "2"})
   {
-    const auto arguments = [&](const std::string& out) { return bench.static_arguments(out, {"--threads", threads}); };
+    const auto arguments = [&](const std::string& out) {
+      return bench.static_arguments(out, {"--threads", threads});
+    };
     const auto check_goes_on = [&](const std::string& out)
     {
       const Ending ending = bench.run("mpm-static", arguments(out));
@@ -368,11 +375,12 @@ TEST_CASE("a static run that was cut short and resumed ends bit for bit as one t
     };
     terminate(bench, "mpm-static", arguments("terminated" + threads), bench / ("terminated" + threads));
     check_goes_on("terminated" + threads);
-    kill_after_checkpoints(bench, "mpm-static", arguments("killed" + threads), bench / ("killed" + threads), 1);
+    kill_after_checkpoints(bench, "mpm-static", arguments("killed" + threads), bench / ("killed" + threads),
+                           1);
     check_goes_on("killed" + threads);
+    run_out_of_time(bench, "mpm-static", arguments("stopped" + threads), bench / ("stopped" + threads));
+    check_goes_on("stopped" + threads);
   }
-  CHECK(run_in_slices(bench, "mpm-static", bench.static_arguments("slices")) > 1);
-  CHECK(difference(bench / "static/final.h5", bench / "slices/final.h5").empty());
 }
 
 TEST_CASE("a static run ends bit for bit the same on one thread and on two", "[stages]")
@@ -388,10 +396,13 @@ TEST_CASE("a seismic run that was cut short and resumed ends bit for bit as one 
   const Bench bench;
   bench.make_static();
   REQUIRE(bench.run_seismic("whole").code == 0);
-  REQUIRE(greatest_plastic_strain(bench / "whole/final.h5") > 0.01); // else the clay would have nothing to remember
+  REQUIRE(greatest_plastic_strain(bench / "whole/final.h5") >
+          0.01); // else the clay would have nothing to remember
   for (const std::string threads : {"1", "2"})
   {
-    const auto arguments = [&](const std::string& out) { return bench.seismic_arguments(out, {"--threads", threads}); };
+    const auto arguments = [&](const std::string& out) {
+      return bench.seismic_arguments(out, {"--threads", threads});
+    };
     const auto check_goes_on = [&](const std::string& out)
     {
       const Ending ending = bench.run("mpm-seismic", arguments(out));
@@ -402,11 +413,12 @@ TEST_CASE("a seismic run that was cut short and resumed ends bit for bit as one 
     };
     terminate(bench, "mpm-seismic", arguments("terminated" + threads), bench / ("terminated" + threads));
     check_goes_on("terminated" + threads);
-    kill_after_checkpoints(bench, "mpm-seismic", arguments("killed" + threads), bench / ("killed" + threads), 1);
+    kill_after_checkpoints(bench, "mpm-seismic", arguments("killed" + threads), bench / ("killed" + threads),
+                           1);
     check_goes_on("killed" + threads);
+    run_out_of_time(bench, "mpm-seismic", arguments("stopped" + threads), bench / ("stopped" + threads));
+    check_goes_on("stopped" + threads);
   }
-  CHECK(run_in_slices(bench, "mpm-seismic", bench.seismic_arguments("slices")) > 1);
-  check_same_results(bench / "whole", bench / "slices");
 }
 
 TEST_CASE("a seismic run ends bit for bit the same on one thread and on two", "[stages]")
@@ -440,7 +452,9 @@ TEST_CASE("one static state serves two motions, and stays as it was", "[stages]"
   put(bench / "other.txt", sine(3, 4));
   const std::string state = contents(bench / "static/final.h5");
   REQUIRE(bench.run_seismic("a").code == 0);
-  REQUIRE(bench.run_seismic("b", {"--motion", bench.path("other.txt"), "--record-dt", "0.01", "--record-unit", "m/s2"})
+  REQUIRE(bench
+              .run_seismic(
+                  "b", {"--motion", bench.path("other.txt"), "--record-dt", "0.01", "--record-unit", "m/s2"})
               .code == 0);
   CHECK(contents(bench / "static/final.h5") == state);
   CHECK(contents_of(bench / "a/history.h5")["/motion/upgoing_velocity"] !=
@@ -467,7 +481,7 @@ TEST_CASE("--fresh starts anew in a folder that holds results", "[stages]")
   const Bench bench;
   REQUIRE(bench.run_static("static").code == 0);
   const auto before = times(bench / "static");
-  REQUIRE(bench.run_static("static", {"--fresh", "--set", "static.ramp=1.5 s"}).code == 0);
+  REQUIRE(bench.run_static("static", {"--fresh", "--set", "static.ramp=2 s"}).code == 0);
   CHECK(times(bench / "static")["final.h5"] > before.at("final.h5"));
 }
 
@@ -498,10 +512,12 @@ TEST_CASE("a wall time that is none exits with 64", "[stages]")
   CHECK(bench.run_static("out", {"--max-wall", "1.5 h", "--check"}).code == 0);
 }
 
-TEST_CASE("a bad case exits with 65, names file, line and column of every error, and makes no folder", "[stages]")
+TEST_CASE("a bad case exits with 65, names file, line and column of every error, and makes no folder",
+          "[stages]")
 {
   const Bench bench;
-  put(bench / "case.yaml", replaced(replaced(cut, "spacing: 1 m", "spacing: 1"), "poisson_ratio: 0.35", "poison_ratio: 0.35"));
+  put(bench / "case.yaml",
+      replaced(replaced(cut, "spacing: 1 m", "spacing: 1"), "poisson_ratio: 0.35", "poison_ratio: 0.35"));
   for (const std::string program : {"mpm-static", "mpm-seismic"})
   {
     const Ending bad = bench.run(program, {bench.path("case.yaml"), "--out", bench.path("out")});
@@ -555,7 +571,8 @@ TEST_CASE("a folder that holds another setting's run is refused with 73 and the 
   const auto before = times(bench / "static");
   const Ending other = bench.run_static("static", {"--set", "materials.clay.young_modulus=50 MPa"});
   CHECK(other.code == 73);
-  CHECK_THAT(other.said, Contains("materials.clay.young_modulus") && Contains("50 MPa") && Contains("40 MPa"));
+  CHECK_THAT(other.said,
+             Contains("materials.clay.young_modulus") && Contains("50 MPa") && Contains("40 MPa"));
   const Arguments short_run{"--set", "seismic.duration=0.1 s"};
   REQUIRE(bench.run_seismic("a", short_run).code == 0);
   Arguments scaled = short_run;
@@ -567,7 +584,8 @@ TEST_CASE("a folder that holds another setting's run is refused with 73 and the 
   CHECK(times(bench / "static") == before);
 }
 
-TEST_CASE("a folder that a live run holds is refused with 73, and free again when that run has ended", "[stages]")
+TEST_CASE("a folder that a live run holds is refused with 73, and free again when that run has ended",
+          "[stages]")
 {
   const Bench bench;
   bench.make_static();
@@ -580,7 +598,8 @@ TEST_CASE("a folder that a live run holds is refused with 73, and free again whe
   first.signal(SIGUSR1);
   CHECK(first.wait().code == 75);
   Running third("mpm-seismic", arguments, bench / "third.txt");
-  REQUIRE(third.wait_until([&] { return contents(bench / "third.txt").find("goes on from") != std::string::npos; }));
+  REQUIRE(third.wait_until(
+      [&] { return contents(bench / "third.txt").find("goes on from") != std::string::npos; }));
   third.signal(SIGINT);
   CHECK(third.wait().code == 75);
 }
@@ -613,11 +632,11 @@ TEST_CASE("a run that blows up exits with 80 and keeps its last good checkpoint"
 {
   const Bench bench;
   bench.make_static();
-  // 1 km/s is 1.4 cells a step where a quarter is allowed.
+  // The pulse has 10 km/s, 12 cells a step.
   put(bench / "blow.txt", sine(9, 2) + "1000000\n-1000000\n" + sine(9, 2));
-  const Ending ending =
-      bench.run_seismic("out", {"--motion", bench.path("blow.txt"), "--record-dt", "0.01", "--record-unit", "m/s2", "--set",
-                                "seismic.duration=4 s", "--set", "output.checkpoint.every=0.05 s"});
+  const Ending ending = bench.run_seismic("out", {"--motion", bench.path("blow.txt"), "--record-dt", "0.01",
+                                                  "--record-unit", "m/s2", "--set", "seismic.duration=4 s",
+                                                  "--set", "output.checkpoint.every=0.05 s"});
   INFO(ending.said);
   CHECK(ending.code == 80);
   CHECK_THAT(ending.said, Contains("t = ") && Contains("quarter of a cell"));
@@ -626,10 +645,11 @@ TEST_CASE("a run that blows up exits with 80 and keeps its last good checkpoint"
   CHECK(code_of([&] { open_complete(checkpoints(bench / "out").back()); }) == 0);
 }
 
-TEST_CASE("a static stage without equilibrium in time exits with 81, says what fails, and writes no state", "[stages]")
+TEST_CASE("a static stage without equilibrium in time exits with 81, says what fails, and writes no state",
+          "[stages]")
 {
   const Bench bench;
-  const Ending ending = bench.run_static("out", {"--set", "static.until.at_most=1.1 s"});
+  const Ending ending = bench.run_static("out", {"--set", "static.until.at_most=3.02 s"});
   CHECK(ending.code == 81);
   CHECK_THAT(ending.said, Contains("static.until.at_most") && Contains("unbalanced force"));
   CHECK_FALSE(fs::exists(bench / "out/final.h5"));
@@ -654,7 +674,8 @@ TEST_CASE("a static state that is incomplete, damaged or none is refused with 65
   const fs::path good = bench / "static/final.h5", bad = bench / "bad.h5";
   const auto refused = [&]
   {
-    const Ending ending = bench.run("mpm-seismic", {bench.path("case.yaml"), "--from", bad, "--out", bench.path("out"), "--fresh"});
+    const Ending ending = bench.run(
+        "mpm-seismic", {bench.path("case.yaml"), "--from", bad, "--out", bench.path("out"), "--fresh"});
     CHECK_THAT(ending.said, Contains("bad.h5"));
     return ending.code == 65;
   };
@@ -665,8 +686,7 @@ TEST_CASE("a static state that is incomplete, damaged or none is refused with 65
   CHECK(refused());
 
   std::string flipped = contents(good);
-  const std::string row = bytes({open_complete(good).read_doubles("particles/mass")[0]});
-  const auto at = flipped.find(row); // somewhere in the masses
+  const auto at = flipped.find(bytes({open_complete(good).read_doubles("particles/stress")[0]}));
   REQUIRE(at != std::string::npos);
   flipped[at + 3] = static_cast<char>(flipped[at + 3] ^ 1);
   put(bad, flipped);
@@ -699,7 +719,8 @@ TEST_CASE("--check exits with 0, tells the cost, and runs and writes nothing", "
   CHECK(statics.code == 0);
   CHECK_THAT(statics.said, Contains("particles") && Contains("MB") && Contains("steps") && Contains("c_s"));
   const Ending seismic =
-      bench.run("mpm-seismic", {bench.path("case.yaml"), "--from", bench.path("static/final.h5"), "--out", bench.path("out"), "--check"});
+      bench.run("mpm-seismic", {bench.path("case.yaml"), "--from", bench.path("static/final.h5"), "--out",
+                                bench.path("out"), "--check"});
   CHECK(seismic.code == 0);
   CHECK_FALSE(fs::exists(bench / "out"));
 }
@@ -707,8 +728,9 @@ TEST_CASE("--check exits with 0, tells the cost, and runs and writes nothing", "
 TEST_CASE("a case without gravity starts without a static state and says so", "[stages]")
 {
   const Bench bench;
-  const Ending ending = bench.run("mpm-seismic", {bench.path("case.yaml"), "--out", bench.path("out"), "--set",
-                                                  "static.gravity=0 m/s2", "--set", "seismic.duration=0.2 s"});
+  const Ending ending =
+      bench.run("mpm-seismic", {bench.path("case.yaml"), "--out", bench.path("out"), "--set",
+                                "static.gravity=0 m/s2", "--set", "seismic.duration=0.2 s"});
   CHECK(ending.code == 0);
   CHECK_THAT(ending.said, Contains("stress-free"));
   CHECK(fs::exists(bench / "out/final.h5"));
@@ -719,7 +741,8 @@ TEST_CASE("summary.json tells how a run ended, and the log all runs of the folde
 {
   const Bench bench;
   terminate(bench, "mpm-static", bench.static_arguments("static"), bench / "static");
-  CHECK_THAT(contents(bench / "static/summary.json"), Contains("\"exit\": 75") && Contains("\"stage\": \"static\""));
+  CHECK_THAT(contents(bench / "static/summary.json"),
+             Contains("\"exit\": 75") && Contains("\"stage\": \"static\""));
   bench.make_static();
   CHECK_THAT(contents(bench / "static/summary.json"), Contains("\"exit\": 0"));
   CHECK_THAT(contents(bench / "static/log.txt"), Contains("ends with 75") && Contains("ends with 0"));
