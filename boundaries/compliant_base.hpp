@@ -18,8 +18,8 @@ struct IncomingWave
   }
 };
 
-/// Compliant base (paper eq. 4): viscous dashpots on the bottom row whose far end moves with twice the upgoing
-/// velocity; the static reaction is that of the frozen images.
+/// Compliant base (paper eq. 4): viscous dashpots on the bottom row whose far end moves with twice the
+/// upgoing velocity; the static reaction is that of the frozen images.
 class CompliantBase final : public Boundary
 {
 public:

@@ -13,7 +13,8 @@ std::vector<Face> find_faces(const Domain& domain, Edge edge, double position, d
   for (std::size_t m = 0; m < domain.materials.size(); ++m)
   {
     const Elastic& law = domain.materials[m].elastic();
-    const double shear = law.density * law.shear_speed() * size, pressure = law.density * law.pressure_speed() * size;
+    const double shear = law.density * law.shear_speed() * size,
+                 pressure = law.density * law.pressure_speed() * size;
     for (int k = domain.material_begin[m]; k < domain.material_begin[m + 1]; ++k)
     {
       const double depth = bottom ? p.reference_y[k] - position : std::fabs(p.reference_x[k] - position);
@@ -33,7 +34,8 @@ std::vector<Face> find_faces(const Domain& domain, Edge edge, double position, d
 void visit_faces(StateVisitor& visitor, std::string prefix, std::vector<Face>& faces)
 {
   RecordVisitor<Face> list(visitor, std::move(prefix), faces);
-  list.each_integer("particle", [](Face& face) -> auto& { return face.particle; });
+  list.each_integer(
+      "particle", [](Face & face) -> auto& { return face.particle; });
   list.member("offset_x", "m", &Face::offset_x);
   list.member("offset_y", "m", &Face::offset_y);
   list.member("dashpot_x", "N s/m2", &Face::dashpot_x);

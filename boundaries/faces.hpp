@@ -9,9 +9,9 @@ namespace mpm
 /// particle distance outside it (METHODS section 2, point of application), and carries a viscous dashpot.
 struct Face
 {
-  std::int64_t particle;         ///< id
-  double offset_x, offset_y;     ///< from the particle to the face, m
-  double dashpot_x, dashpot_y;   ///< impedance times area, N s/m per m
+  std::int64_t particle;       ///< id
+  double offset_x, offset_y;   ///< from the particle to the face, m
+  double dashpot_x, dashpot_y; ///< impedance times area, N s/m per m
 };
 
 /// Which outer face of a model.

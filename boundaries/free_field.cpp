@@ -63,7 +63,8 @@ std::vector<std::array<double, 3>> FreeFieldColumn::stress_of_rows() const
   for (const std::int64_t id : ids_)
   {
     const int k = domain->place[id];
-    result.push_back({p.volume[k] * p.stress_xx[k], p.volume[k] * p.stress_yy[k], p.volume[k] * p.stress_xy[k]});
+    result.push_back(
+        {p.volume[k] * p.stress_xx[k], p.volume[k] * p.stress_yy[k], p.volume[k] * p.stress_xy[k]});
   }
   return result;
 }
@@ -99,7 +100,8 @@ std::array<double, 2> FreeFieldSide::column_velocity(int row) const
 {
   if (!column_) return {};
   const int k = row - column_->first_row;
-  return k >= 0 && k < static_cast<int>(column_->velocity.size()) ? column_->velocity[k] : std::array<double, 2>{};
+  return k >= 0 && k < static_cast<int>(column_->velocity.size()) ? column_->velocity[k]
+                                                                  : std::array<double, 2>{};
 }
 
 void FreeFieldSide::add_forces(Domain& domain, double dt)

@@ -5,7 +5,8 @@
 
 namespace mpm
 {
-/// A free-field column: a domain one cell wide, and what the model's side needs of its step (METHODS section 5).
+/// A free-field column: a domain one cell wide, and what the model's side needs of its step (METHODS section
+/// 5).
 class FreeFieldColumn
 {
 public:
@@ -21,8 +22,8 @@ public:
   std::vector<std::array<double, 3>> stress_of_rows() const;
 
   std::unique_ptr<Domain> domain;
-  std::vector<std::array<double, 3>> stress;       ///< of the rows, at the step's start
-  std::vector<std::array<double, 2>> velocity;     ///< of the grid rows, mean of the step's start and end, m/s
+  std::vector<std::array<double, 3>> stress;   ///< of the rows, at the step's start
+  std::vector<std::array<double, 2>> velocity; ///< of the grid rows, mean of the step's start and end, m/s
   std::vector<std::array<double, 2>> acceleration; ///< of the grid rows, m/s2
   int first_row = 0;                               ///< grid row of the first entry
 
@@ -34,9 +35,9 @@ private:
   std::vector<std::int64_t> ids_; ///< from the bottom up
 };
 
-/// A free-field side (paper eqs. 5, 6 in the form of METHODS section 5): beyond the face stand ghost rows that carry
-/// the column's dynamic stress and inertia, and dashpots tie the face to the column node by node. Without a column
-/// it is a quiet side: dashpots against the ground at rest.
+/// A free-field side (paper eqs. 5, 6 in the form of METHODS section 5): beyond the face stand ghost rows
+/// that carry the column's dynamic stress and inertia, and dashpots tie the face to the column node by node.
+/// Without a column it is a quiet side: dashpots against the ground at rest.
 class FreeFieldSide final : public Boundary
 {
 public:

@@ -9,7 +9,8 @@ namespace mpm
 {
 namespace
 {
-/// Cells beyond a wall that images must fill: two are reached by a ghost node two cells out (METHODS section 3).
+/// Cells beyond a wall that images must fill: two are reached by a ghost node two cells out (METHODS section
+/// 3).
 constexpr double strip = 4;
 
 /// Mirrors an image (or a particle, taken as its own image) at one more wall.
@@ -46,8 +47,17 @@ std::vector<Image> make_images(const Domain& domain, std::span<const Wall> walls
   {
     const int k = domain.place[id];
     const double V = p.volume[k], m = p.mass[k];
-    std::vector<Image> family{{id, 0, 0, V * p.stress_xx[k], V * p.stress_xy[k], V * p.stress_xy[k],
-                               V * p.stress_yy[k], m * domain.gravity_x, m * domain.gravity_y, {}, 0}};
+    std::vector<Image> family{{id,
+                               0,
+                               0,
+                               V * p.stress_xx[k],
+                               V * p.stress_xy[k],
+                               V * p.stress_xy[k],
+                               V * p.stress_yy[k],
+                               m * domain.gravity_x,
+                               m * domain.gravity_y,
+                               {},
+                               0}};
     for (const Wall& wall : walls)
     {
       const double position = wall.normal == Direction::x ? p.x[k] : p.y[k];
@@ -97,8 +107,8 @@ void ImageBlocks::bind(const Domain& domain, const std::vector<Image>& images)
   }
 }
 
-std::array<double, 2> ImageBlocks::scatter(Domain& domain, const ImageHome& home, const std::vector<Image>& images,
-                                           const Extra& extra) const
+std::array<double, 2> ImageBlocks::scatter(Domain& domain, const ImageHome& home,
+                                           const std::vector<Image>& images, const Extra& extra) const
 {
   Tile force_x, force_y, mass;
   for (Tile* tile : {&force_x, &force_y, &mass}) tile->value.fill(0);
@@ -144,7 +154,8 @@ std::array<double, 2> ImageBlocks::scatter(Domain& domain, const ImageHome& home
                {
                  const int row = row_of_tile + place / tile_stride;
                  std::array<double, 2> a{};
-                 if (row >= 0 && row < static_cast<int>(extra.acceleration.size())) a = extra.acceleration[row];
+                 if (row >= 0 && row < static_cast<int>(extra.acceleration.size()))
+                   a = extra.acceleration[row];
                  for (int k = 0; k < count; ++k)
                  {
                    if (g.mass[node + k] <= 0) continue;
@@ -163,8 +174,8 @@ std::array<double, 2> ImageBlocks::add_forces(Domain& domain, const std::vector<
 {
   std::vector<std::array<double, 2>> parts(homes_.size());
   for (const auto& colour : colours_)
-    parallel::for_each(static_cast<int>(colour.size()), [&](int k)
-                       { parts[colour[k]] = scatter(domain, homes_[colour[k]], images, extra); });
+    parallel::for_each(static_cast<int>(colour.size()),
+                       [&](int k) { parts[colour[k]] = scatter(domain, homes_[colour[k]], images, extra); });
   std::array<double, 2> sum{};
   for (const auto& part : parts)
   {
@@ -208,9 +219,12 @@ void FrozenImages::visit_state(StateVisitor& visitor)
 void visit_images(StateVisitor& visitor, std::string prefix, std::vector<Image>& images)
 {
   RecordVisitor<Image> list(visitor, std::move(prefix), images);
-  list.each_integer("parent", [](Image& image) -> auto& { return image.parent; });
-  list.each_integer("block_x", [](Image& image) -> auto& { return image.block.x; });
-  list.each_integer("block_y", [](Image& image) -> auto& { return image.block.y; });
+  list.each_integer(
+      "parent", [](Image & image) -> auto& { return image.parent; });
+  list.each_integer(
+      "block_x", [](Image & image) -> auto& { return image.block.x; });
+  list.each_integer(
+      "block_y", [](Image & image) -> auto& { return image.block.y; });
   list.member("offset_x", "m", &Image::offset_x);
   list.member("offset_y", "m", &Image::offset_y);
   list.member("stress_xx", "N m/m", &Image::stress_xx);

@@ -7,16 +7,17 @@
 
 namespace mpm
 {
-/// A massless image of a particle beyond a wall that has gone: it moves with its parent and keeps the stress that
-/// the mirrored particle had, so that the wall's reaction stays (METHODS section 3, option d).
+/// A massless image of a particle beyond a wall that has gone: it moves with its parent and keeps the stress
+/// that the mirrored particle had, so that the wall's reaction stays (METHODS section 3, option d).
 struct Image
 {
-  std::int64_t parent;                ///< particle id
-  double offset_x, offset_y;          ///< from the parent, m
-  double stress_xx, stress_xy, stress_yx, stress_yy; ///< S sigma M V, N m per m; not symmetric behind a no-slip wall
-  double weight_x, weight_y;          ///< S m g, N per m
-  BlockIndex block{};                 ///< where it stood at the last sort
-  double mass = 0;                    ///< of the ghost row that it stands for, kg per m; 0 when it has no dynamics
+  std::int64_t parent;       ///< particle id
+  double offset_x, offset_y; ///< from the parent, m
+  double stress_xx, stress_xy, stress_yx,
+      stress_yy;             ///< S sigma M V, N m per m; not symmetric behind a no-slip wall
+  double weight_x, weight_y; ///< S m g, N per m
+  BlockIndex block{};        ///< where it stood at the last sort
+  double mass = 0;           ///< of the ghost row that it stands for, kg per m; 0 when it has no dynamics
 };
 
 /// Images of all particles within four cells of the walls, with the corners' products.
@@ -44,7 +45,8 @@ public:
     int first_row = 0;
   };
   /// Adds the images' forces to nodes that hold real mass, and returns their sum (N per m).
-  std::array<double, 2> add_forces(Domain& domain, const std::vector<Image>& images, const Extra& extra) const;
+  std::array<double, 2> add_forces(Domain& domain, const std::vector<Image>& images,
+                                   const Extra& extra) const;
 
 private:
   struct ImageHome
@@ -60,8 +62,8 @@ private:
   std::array<std::vector<int>, 4> colours_;
 };
 
-/// The static reaction of walls that have gone. What the images lose in resultant when the body has moved over the
-/// grid is given back as a uniform acceleration (METHODS section 3).
+/// The static reaction of walls that have gone. What the images lose in resultant when the body has moved
+/// over the grid is given back as a uniform acceleration (METHODS section 3).
 class FrozenImages final : public Boundary
 {
 public:

@@ -29,8 +29,10 @@ void MirroredWall::bind(const Domain& domain)
         const int mirrored = wall_.line - depth * wall_.inward;
         const int node = grid.node(i, j);
         const int ghost = wall_.normal == Direction::x ? grid.node(mirrored, j) : grid.node(i, mirrored);
-        if (depth == 0) on_wall_.push_back(node);
-        else if (ghost >= 0) pairs_.push_back({node, ghost});
+        if (depth == 0)
+          on_wall_.push_back(node);
+        else if (ghost >= 0)
+          pairs_.push_back({node, ghost});
       }
 }
 

@@ -23,8 +23,9 @@ struct Wall
   double image_sign_y() const { return slip && normal == Direction::x ? 1 : -1; }
 };
 
-/// Kinematic wall by mirrored particles (Schulz & Sutmann 2019), done as a fold of the nodes: image particles are
-/// never made (METHODS section 2). Walls of one domain are folded one after the other, which makes the corners.
+/// Kinematic wall by mirrored particles (Schulz & Sutmann 2019), done as a fold of the nodes: image particles
+/// are never made (METHODS section 2). Walls of one domain are folded one after the other, which makes the
+/// corners.
 class MirroredWall final : public Boundary
 {
 public:

@@ -78,7 +78,8 @@ void save_homes(h5::Group group, const Domain& domain)
 {
   std::vector<std::int64_t> table;
   for (const Home& home : domain.homes)
-    for (const Range& r : home.ranges) table.insert(table.end(), {home.block.x, home.block.y, r.material, r.begin, r.end});
+    for (const Range& r : home.ranges)
+      table.insert(table.end(), {home.block.x, home.block.y, r.material, r.begin, r.end});
   group.attribute("spacing", domain.grid.spacing);
   group.attribute("origin", std::vector<double>{domain.grid.origin_x, domain.grid.origin_y});
   group.attribute("drift", domain.drift);
@@ -133,9 +134,10 @@ void load_particles(const h5::Group& group, Domain& domain)
   const std::size_t count = p.size();
   p.id = particles.read_ints("id");
   if (p.id.size() != count)
-    throw Error(exit_code::bad_input,
-                fmt::format("{}: holds {} particles where the case makes {}; use the case that it was made with",
-                            particles.where("id"), p.id.size(), count));
+    throw Error(
+        exit_code::bad_input,
+        fmt::format("{}: holds {} particles where the case makes {}; use the case that it was made with",
+                    particles.where("id"), p.id.size(), count));
   for (const ParticleField& field : particle_fields)
   {
     const std::vector<double> values = particles.read_doubles(std::string(field.name));
@@ -148,10 +150,12 @@ void load_particles(const h5::Group& group, Domain& domain)
   {
     Material& material = domain.materials[m];
     const h5::Group own = group.open_group("materials/" + material.name);
-    if (own.attribute_string("model") != material.model() || own.attribute_int("begin") != domain.material_begin[m] ||
+    if (own.attribute_string("model") != material.model() ||
+        own.attribute_int("begin") != domain.material_begin[m] ||
         own.attribute_int("end") != domain.material_begin[m + 1])
-      throw Error(exit_code::bad_input, own.where() + ": is another material than the case's; use the case that the "
-                                                      "checkpoint was made with");
+      throw Error(exit_code::bad_input, own.where() +
+                                            ": is another material than the case's; use the case that the "
+                                            "checkpoint was made with");
     for (std::size_t k = 0; k < material.state.size(); ++k)
       material.state[k] = own.read_doubles(std::string(material.state_fields()[k].name));
   }

@@ -5,8 +5,8 @@
 
 namespace mpm
 {
-/// Writes a domain's whole state: particles in the solver's order, history variables, which particles belong to
-/// which block, what its boundaries remember, and its gauges.
+/// Writes a domain's whole state: particles in the solver's order, history variables, which particles belong
+/// to which block, what its boundaries remember, and its gauges.
 void save_domain(h5::Group& group, Domain& domain);
 
 /// The reverse, into a domain of the same scene with the same boundaries; rebuilds grid and bindings.

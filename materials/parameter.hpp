@@ -28,7 +28,7 @@ struct Parameter
 {
   std::string_view key;
   Dimension dimension;
-  double Law::* value;
+  double Law::*value;
   double lower = -std::numeric_limits<double>::infinity();
   bool lower_allowed = true;
   double upper = std::numeric_limits<double>::infinity();

@@ -11,10 +11,10 @@ struct VonMises : Elastic
 {
   static constexpr std::string_view model = "von_mises";
   double peak = NAN;
-  double residual = NAN;              ///< left out: perfectly plastic
+  double residual = NAN;               ///< left out: perfectly plastic
   double softening_displacement = NAN; ///< delta_r in m
-  double band_width = NAN;            ///< l in m, by default 1.45 grid spacings
-  double softening_strain = NAN;      ///< plastic strain at which the residual strength is reached
+  double band_width = NAN;             ///< l in m, by default 1.45 grid spacings
+  double softening_strain = NAN;       ///< plastic strain at which the residual strength is reached
 
   static constexpr auto parameters()
   {
@@ -26,8 +26,8 @@ struct VonMises : Elastic
         P{"poisson_ratio", Dimension::none, &VonMises::poisson, -1, false, 0.5, false},
         P{"strength.peak", Dimension::stress, &VonMises::peak, 0, false},
         P{"strength.residual", Dimension::stress, &VonMises::residual, 0, true, inf, true, false},
-        P{"softening.displacement", Dimension::length, &VonMises::softening_displacement, 0, false, inf,
-          true, false},
+        P{"softening.displacement", Dimension::length, &VonMises::softening_displacement, 0, false, inf, true,
+          false},
         P{"softening.band_width", Dimension::length, &VonMises::band_width, 0, false, inf, true, false},
         P{"softening.strain", Dimension::none, &VonMises::softening_strain, 0, false, inf, true, false},
     };
@@ -59,8 +59,8 @@ struct VonMises : Elastic
     }
     if (softening_strain <= (peak - residual) / (3 * shear_modulus()))
       return "softening: is so steep that the stress would snap back (residual strain " +
-             std::to_string(softening_strain) + " <= (peak - residual) / 3G = " +
-             std::to_string((peak - residual) / (3 * shear_modulus())) +
+             std::to_string(softening_strain) +
+             " <= (peak - residual) / 3G = " + std::to_string((peak - residual) / (3 * shear_modulus())) +
              "); use a longer displacement or a smaller band width";
     return {};
   }

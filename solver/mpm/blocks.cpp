@@ -112,7 +112,8 @@ void rebuild(Domain& domain)
 void sort_particles(Domain& domain)
 {
   std::vector<std::pair<BlockIndex, Range>> stretches;
-  for (std::size_t k = 0; k < domain.materials.size(); ++k) sort_material(domain, static_cast<int>(k), stretches);
+  for (std::size_t k = 0; k < domain.materials.size(); ++k)
+    sort_material(domain, static_cast<int>(k), stretches);
   std::stable_sort(stretches.begin(), stretches.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   domain.homes.clear();
@@ -146,7 +147,8 @@ double greatest_speed(const Domain& domain)
 {
   const Particles& p = domain.particles;
   double greatest = 0;
-  for (int k = 0; k < p.size(); ++k) greatest = std::max(greatest, std::hypot(p.velocity_x[k], p.velocity_y[k]));
+  for (int k = 0; k < p.size(); ++k)
+    greatest = std::max(greatest, std::hypot(p.velocity_x[k], p.velocity_y[k]));
   return greatest;
 }
 
@@ -163,7 +165,9 @@ void check_particles(const Domain& domain, const std::vector<double>& reference_
     const double all = p.x[k] + p.y[k] + p.stress_xx[k] + p.stress_yy[k] + p.stress_zz[k] + p.stress_xy[k];
     if (!std::isfinite(all)) throw Diverged(place(k) + "is not finite; use a smaller time_step.safety");
     if (p.volume[k] < 0.1 * reference_volume[p.id[k]])
-      throw Diverged(place(k) + "is squeezed below a tenth of its volume; use a smaller time_step.safety or grid.spacing");
+      throw Diverged(
+          place(k) +
+          "is squeezed below a tenth of its volume; use a smaller time_step.safety or grid.spacing");
   }
 }
 } // namespace mpm

@@ -19,8 +19,8 @@ struct Boundary
   /// Finds its particles and nodes again after a sort or a restart; must not go by positions,
   /// since a restart finds them further on than the sort did.
   virtual void bind(const Domain&) {}
-  /// Adds forces and dashpots to the grid, after the particles' own scatter. The step runs from domain.time to
-  /// domain.time + dt.
+  /// Adds forces and dashpots to the grid, after the particles' own scatter. The step runs from domain.time
+  /// to domain.time + dt.
   virtual void add_forces(Domain&, double /*dt*/) {}
   /// Last word before the equation of motion: mirrors nodes at a wall.
   virtual void constrain(Domain&) {}

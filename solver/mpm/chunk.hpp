@@ -9,7 +9,8 @@
 
 namespace mpm
 {
-/// Spline weights of up to 64 particles, four nodes each, and the place of their first node in the block's tile.
+/// Spline weights of up to 64 particles, four nodes each, and the place of their first node in the block's
+/// tile.
 struct ChunkWeights
 {
   alignas(64) std::array<double, 4 * chunk_size> x, y, slope_x, slope_y, offset_x, offset_y;
@@ -21,7 +22,8 @@ inline void find_weights(const Grid& grid, BlockIndex block, const double* x, co
                          ChunkWeights& w)
 {
   const double h = grid.spacing, inverse = 1 / h;
-  const double from_x = grid.origin_x + h * block_cells * block.x, from_y = grid.origin_y + h * block_cells * block.y;
+  const double from_x = grid.origin_x + h * block_cells * block.x,
+               from_y = grid.origin_y + h * block_cells * block.y;
   const auto direction = [=](double position, double from, double* value, double* slope, double* offset)
   {
     const double local = (position - from) * inverse;

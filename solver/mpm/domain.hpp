@@ -72,8 +72,9 @@ struct Domain
   double greatest_move = 0; ///< greatest displacement component of the last step, in cells
 };
 
-/// Sizes place and material_begin, sorts the particles (with their materials' state), rebuilds blocks and grid and
-/// binds the boundaries. `material_of[id]` is only needed the first time, when the order is the caller's.
+/// Sizes place and material_begin, sorts the particles (with their materials' state), rebuilds blocks and
+/// grid and binds the boundaries. `material_of[id]` is only needed the first time, when the order is the
+/// caller's.
 void sort_particles(Domain& domain);
 
 /// Rebuilds blocks, grid and bindings from the homes in place, without touching the order (after a restart).

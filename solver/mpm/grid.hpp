@@ -8,9 +8,9 @@
 
 namespace mpm
 {
-inline constexpr int block_cells = 8;                           ///< cells (and nodes) along a block's edge
-inline constexpr int block_nodes = block_cells * block_cells;   ///< nodes that a block owns
-inline constexpr int tile_margin = 2;                           ///< nodes of a tile left of its block: 1 of the stencil, 1 of drift
+inline constexpr int block_cells = 8;                         ///< cells (and nodes) along a block's edge
+inline constexpr int block_nodes = block_cells * block_cells; ///< nodes that a block owns
+inline constexpr int tile_margin = 2; ///< nodes of a tile left of its block: 1 of the stencil, 1 of drift
 inline constexpr int tile_nodes = block_cells + 2 * tile_margin + 1;
 inline constexpr int tile_stride = 16;
 inline constexpr int tile_size = tile_nodes * tile_stride;
@@ -45,7 +45,8 @@ struct Grid
   std::vector<double> mass;
   std::vector<double> momentum_x, momentum_y;
   std::vector<double> force_x, force_y;
-  std::vector<double> dashpot_x, dashpot_y;   ///< viscous coefficients in N s/m; empty without absorbing boundaries
+  std::vector<double> dashpot_x,
+      dashpot_y; ///< viscous coefficients in N s/m; empty without absorbing boundaries
   std::vector<double> velocity_x, velocity_y; ///< updated velocity v*
 
   double inverse_spacing() const { return 1 / spacing; }
@@ -61,7 +62,10 @@ struct Grid
 };
 
 /// Block that owns cell or node i of a direction.
-inline int block_of(int i) { return i >> 3; }
+inline int block_of(int i)
+{
+  return i >> 3;
+}
 
 /// Finds the nodes of one stencil after the other, quickly when they are near each other.
 class NodeFinder
@@ -125,15 +129,22 @@ void for_each_run(const Grid& grid, const Neighbours& around, const Function& f)
 /// Adds a tile to the node field of the blocks around it.
 inline void add_tile(const Grid& grid, const Neighbours& around, const Tile& tile, std::vector<double>& field)
 {
-  for_each_run(grid, around, [&](int node, int place, int count)
-               { for (int k = 0; k < count; ++k) field[node + k] += tile.value[place + k]; });
+  for_each_run(grid, around,
+               [&](int node, int place, int count)
+               {
+                 for (int k = 0; k < count; ++k) field[node + k] += tile.value[place + k];
+               });
 }
 
 /// Copies a node field into a tile; nodes of blocks that do not exist are zero.
-inline void read_tile(const Grid& grid, const Neighbours& around, const std::vector<double>& field, Tile& tile)
+inline void read_tile(const Grid& grid, const Neighbours& around, const std::vector<double>& field,
+                      Tile& tile)
 {
   tile.value.fill(0);
-  for_each_run(grid, around, [&](int node, int place, int count)
-               { for (int k = 0; k < count; ++k) tile.value[place + k] = field[node + k]; });
+  for_each_run(grid, around,
+               [&](int node, int place, int count)
+               {
+                 for (int k = 0; k < count; ++k) tile.value[place + k] = field[node + k];
+               });
 }
 } // namespace mpm

@@ -11,8 +11,8 @@ struct Velocities
 
 /// v = sum w v, C = D^-1 sum w v (x_i - x)^T (eq. 3) and L = sum v grad w; moves the particles. Returns the
 /// greatest displacement component in cells, infinity when it is not a number.
-double gather(Particles& p, int begin, int count, const ChunkWeights& w, const Velocities& velocities, double spacing,
-              double dt, VelocityGradients& L)
+double gather(Particles& p, int begin, int count, const ChunkWeights& w, const Velocities& velocities,
+              double spacing, double dt, VelocityGradients& L)
 {
   const double inverse_D = 3 / (spacing * spacing);
   double greatest = 0;

@@ -4,7 +4,6 @@
 
 #include <omp.h>
 
-
 namespace mpm::parallel
 {
 inline void use_threads(int count)
@@ -13,10 +12,16 @@ inline void use_threads(int count)
   omp_set_num_threads(count);
 }
 
-inline int threads() { return omp_get_max_threads(); }
+inline int threads()
+{
+  return omp_get_max_threads();
+}
 
 /// Processors that this process may use.
-inline int processors() { return omp_get_num_procs(); }
+inline int processors()
+{
+  return omp_get_num_procs();
+}
 
 /// Calls f(i) for i in [0, count), in any order and on any thread. f must not throw.
 template <class Function>

@@ -7,24 +7,25 @@
 
 namespace mpm
 {
-/// Material points as a structure of arrays, sorted by material, then grid block, then cell. Tension positive.
+/// Material points as a structure of arrays, sorted by material, then grid block, then cell. Tension
+/// positive.
 struct Particles
 {
-  std::vector<double> x, y;                       ///< position, m
-  std::vector<double> reference_x, reference_y;   ///< position in the undeformed scene, m
-  std::vector<double> velocity_x, velocity_y;     ///< m/s
+  std::vector<double> x, y;                                       ///< position, m
+  std::vector<double> reference_x, reference_y;                   ///< position in the undeformed scene, m
+  std::vector<double> velocity_x, velocity_y;                     ///< m/s
   std::vector<double> affine_xx, affine_xy, affine_yx, affine_yy; ///< C = D^-1 B, 1/s
   std::vector<double> stress_xx, stress_yy, stress_zz, stress_xy; ///< Cauchy stress, Pa
-  std::vector<double> mass;                       ///< kg per m out of plane
-  std::vector<double> volume;                     ///< current, m3 per m out of plane
-  std::vector<std::int64_t> id;                   ///< stable name of the particle
+  std::vector<double> mass;                                       ///< kg per m out of plane
+  std::vector<double> volume;                                     ///< current, m3 per m out of plane
+  std::vector<std::int64_t> id;                                   ///< stable name of the particle
 
   int size() const { return static_cast<int>(x.size()); }
   void resize(int count);
 };
 
-/// The fields of a particle, named once for sorting, checkpoints and checks: a scalar, a vector (x, y), a tensor
-/// (xx, xy, yx, yy) or a stress (xx, yy, zz, xy).
+/// The fields of a particle, named once for sorting, checkpoints and checks: a scalar, a vector (x, y), a
+/// tensor (xx, xy, yx, yy) or a stress (xx, yy, zz, xy).
 struct ParticleField
 {
   std::string_view name;
@@ -37,10 +38,16 @@ inline constexpr std::array particle_fields{
     ParticleField{"position", "m", 2, {&Particles::x, &Particles::y}},
     ParticleField{"reference", "m", 2, {&Particles::reference_x, &Particles::reference_y}},
     ParticleField{"velocity", "m/s", 2, {&Particles::velocity_x, &Particles::velocity_y}},
-    ParticleField{"affine", "1/s", 4,
-                  {&Particles::affine_xx, &Particles::affine_xy, &Particles::affine_yx, &Particles::affine_yy}},
-    ParticleField{"stress", "Pa", 4,
-                  {&Particles::stress_xx, &Particles::stress_yy, &Particles::stress_zz, &Particles::stress_xy}},
+    ParticleField{
+        "affine",
+        "1/s",
+        4,
+        {&Particles::affine_xx, &Particles::affine_xy, &Particles::affine_yx, &Particles::affine_yy}},
+    ParticleField{
+        "stress",
+        "Pa",
+        4,
+        {&Particles::stress_xx, &Particles::stress_yy, &Particles::stress_zz, &Particles::stress_xy}},
     ParticleField{"mass", "kg/m", 1, {&Particles::mass}},
     ParticleField{"volume", "m3/m", 1, {&Particles::volume}},
 };

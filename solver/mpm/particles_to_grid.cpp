@@ -9,7 +9,10 @@ struct Tiles
   Tile mass, momentum_x, momentum_y, force_x, force_y;
 };
 
-inline void add(double* to, const Row& row) { store_row(to, load_row(to) + row); }
+inline void add(double* to, const Row& row)
+{
+  store_row(to, load_row(to) + row);
+}
 
 /// Momentum by eq. (2), internal force f = -V sigma grad w.
 void scatter(const Particles& p, int begin, int count, const ChunkWeights& w, Tiles& tiles)
@@ -17,7 +20,8 @@ void scatter(const Particles& p, int begin, int count, const ChunkWeights& w, Ti
   for (int k = 0; k < count; ++k)
   {
     const int q = begin + k;
-    const Row wx = load_row(&w.x[4 * k]), dwx = load_row(&w.slope_x[4 * k]), dx = load_row(&w.offset_x[4 * k]);
+    const Row wx = load_row(&w.x[4 * k]), dwx = load_row(&w.slope_x[4 * k]),
+              dx = load_row(&w.offset_x[4 * k]);
     const double V = p.volume[q];
     const Row m = p.mass[q] * wx;
     const Row ux = m * (p.velocity_x[q] + p.affine_xx[q] * dx), ux_dy = m * p.affine_xy[q];

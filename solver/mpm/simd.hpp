@@ -14,7 +14,13 @@ inline Row load_row(const double* from)
   return row;
 }
 
-inline void store_row(double* to, const Row& row) { std::memcpy(to, &row, sizeof row); }
+inline void store_row(double* to, const Row& row)
+{
+  std::memcpy(to, &row, sizeof row);
+}
 
-inline double sum(const Row& row) { return (row[0] + row[2]) + (row[1] + row[3]); }
+inline double sum(const Row& row)
+{
+  return (row[0] + row[2]) + (row[1] + row[3]);
+}
 } // namespace mpm

@@ -63,8 +63,10 @@ void solve_grid(Domain& domain, double dt)
   parallel::for_each(blocks,
                      [&](int k)
                      {
-                       if (grid.dashpot_x.empty()) solve_block<false>(grid, k, a);
-                       else solve_block<true>(grid, k, a);
+                       if (grid.dashpot_x.empty())
+                         solve_block<false>(grid, k, a);
+                       else
+                         solve_block<true>(grid, k, a);
                      });
   if (!domain.balance_wanted) return;
   std::vector<Balance> parts(blocks);

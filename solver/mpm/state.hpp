@@ -26,7 +26,7 @@ public:
       : visitor_(visitor), prefix_(std::move(prefix)), list_(list)
   {
   }
-  void member(std::string_view name, std::string_view unit, double T::* member)
+  void member(std::string_view name, std::string_view unit, double T::*member)
   {
     each(name, unit, [member](T& item) -> double& { return item.*member; });
   }

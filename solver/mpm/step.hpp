@@ -4,8 +4,8 @@
 
 namespace mpm
 {
-/// One explicit step of symplectic Euler (paper Figure 1; METHODS section 1) from domain.time over dt seconds. The
-/// caller sets domain.time. Throws Diverged when a particle moves more than a quarter of a cell.
+/// One explicit step of symplectic Euler (paper Figure 1; METHODS section 1) from domain.time over dt
+/// seconds. The caller sets domain.time. Throws Diverged when a particle moves more than a quarter of a cell.
 void step(Domain& domain, double dt);
 
 void particles_to_grid(Domain& domain, double dt); ///< (a) mass, momentum and forces to the grid

@@ -14,7 +14,8 @@ namespace
 /// Puts seeds, grouped by material, into a domain whose grid is set up.
 void plant(Domain& domain, const Case& scene, std::vector<Seed> seeds)
 {
-  std::stable_sort(seeds.begin(), seeds.end(), [](const Seed& a, const Seed& b) { return a.material < b.material; });
+  std::stable_sort(seeds.begin(), seeds.end(),
+                   [](const Seed& a, const Seed& b) { return a.material < b.material; });
   std::vector<int> counts(scene.materials.size(), 0);
   for (const Seed& seed : seeds) ++counts[seed.material];
   set_materials(domain, scene.materials, counts);
@@ -48,11 +49,23 @@ std::unique_ptr<FreeFieldColumn> make_column(const Case& scene, const std::vecto
   return std::make_unique<FreeFieldColumn>(std::move(domain));
 }
 
-int cells_across(const Case& scene) { return static_cast<int>(std::lround(scene.domain.width() / scene.grid.spacing)); }
+int cells_across(const Case& scene)
+{
+  return static_cast<int>(std::lround(scene.domain.width() / scene.grid.spacing));
+}
 
-Wall bottom_wall() { return {Direction::y, 0, 1, false}; }
-Wall left_wall() { return {Direction::x, 0, 1, true}; }
-Wall right_wall(const Case& scene) { return {Direction::x, cells_across(scene), -1, true}; }
+Wall bottom_wall()
+{
+  return {Direction::y, 0, 1, false};
+}
+Wall left_wall()
+{
+  return {Direction::x, 0, 1, true};
+}
+Wall right_wall(const Case& scene)
+{
+  return {Direction::x, cells_across(scene), -1, true};
+}
 
 void add_walls(Domain& domain, std::span<const Wall> walls)
 {
@@ -70,8 +83,9 @@ void come_to_rest(Domain& domain)
 }
 
 /// Walls that stay, images for those that leave, and the compliant base.
-void switch_boundaries(Domain& domain, const Case& scene, std::span<const Wall> leaving, std::span<const Wall> staying,
-                       const std::shared_ptr<const IncomingWave>& wave, bool restarting)
+void switch_boundaries(Domain& domain, const Case& scene, std::span<const Wall> leaving,
+                       std::span<const Wall> staying, const std::shared_ptr<const IncomingWave>& wave,
+                       bool restarting)
 {
   std::vector<Image> images;
   if (!restarting) images = make_images(domain, leaving);
@@ -80,7 +94,8 @@ void switch_boundaries(Domain& domain, const Case& scene, std::span<const Wall> 
   add_walls(domain, staying);
   if (scene.seismic.base == BaseKind::fixed) return;
   std::vector<Face> faces;
-  if (!restarting) faces = find_faces(domain, Edge::bottom, scene.domain.bottom, scene.grid.particle_spacing());
+  if (!restarting)
+    faces = find_faces(domain, Edge::bottom, scene.domain.bottom, scene.grid.particle_spacing());
   domain.boundaries.push_back(std::make_unique<CompliantBase>(std::move(faces), wave));
 }
 } // namespace
@@ -119,7 +134,8 @@ void add_static_boundaries(Model& model, const Case& scene)
       });
 }
 
-void add_seismic_boundaries(Model& model, const Case& scene, std::shared_ptr<const IncomingWave> wave, bool restarting)
+void add_seismic_boundaries(Model& model, const Case& scene, std::shared_ptr<const IncomingWave> wave,
+                            bool restarting)
 {
   const bool fixed = scene.seismic.base == BaseKind::fixed, roller = scene.seismic.sides == SideKind::roller;
   model.for_each_domain(

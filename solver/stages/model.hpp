@@ -29,8 +29,8 @@ Model make_model(const Case& scene);
 /// Kinematic walls of the static stage: no-slip base, slip sides (METHODS section 2).
 void add_static_boundaries(Model& model, const Case& scene);
 
-/// The switch: walls leave and their reaction stays (METHODS section 3); particles come to rest; base and sides
-/// become what the case's seismic section says. With `restarting`, the boundaries are left empty for a
+/// The switch: walls leave and their reaction stays (METHODS section 3); particles come to rest; base and
+/// sides become what the case's seismic section says. With `restarting`, the boundaries are left empty for a
 /// checkpoint to fill.
 void add_seismic_boundaries(Model& model, const Case& scene, std::shared_ptr<const IncomingWave> wave,
                             bool restarting);

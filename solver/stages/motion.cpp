@@ -21,7 +21,8 @@ struct Source
 Source read(const MotionSource& source)
 {
   if (source.built_in())
-    return {parse_record(built_in_motion, {.file = "built_in.AT2", .format = "peer"}), sha256(built_in_motion)};
+    return {parse_record(built_in_motion, {.file = "built_in.AT2", .format = "peer"}),
+            sha256(built_in_motion)};
   return {read_record(source.record), sha256_file(source.record.file)};
 }
 
@@ -32,7 +33,8 @@ void fade_out(GroundMotion& motion, double end)
   {
     const double s = std::clamp((end - motion.dt * double(k)) / end_taper, 0.0, 1.0);
     const double w = 0.5 - 0.5 * std::cos(std::numbers::pi * s);
-    const double slope = s > 0 && s < 1 ? -0.5 * std::numbers::pi / end_taper * std::sin(std::numbers::pi * s) : 0;
+    const double slope =
+        s > 0 && s < 1 ? -0.5 * std::numbers::pi / end_taper * std::sin(std::numbers::pi * s) : 0;
     motion.acceleration[k] = motion.acceleration[k] * w + motion.velocity[k] * slope;
     motion.velocity[k] *= w;
   }
@@ -41,17 +43,21 @@ void fade_out(GroundMotion& motion, double end)
 void report(Session& session, const std::string& component, const Record& record, const GroundMotion& motion)
 {
   const MotionReport& r = motion.report;
-  session.log.info("{} motion {}: PGA {:.3f} g at {:.2f} s, PGV {:.3f} m/s, PGD {:.3f} m, Arias {:.2f} m/s, D5-95 {:.1f} s",
-                   component, record.source, r.pga / standard_gravity, r.pga_time, r.pgv, r.pgd, r.arias, r.d5_95);
-  session.log.info("{} motion: residual velocity {:.2e} -> {:.2e} m/s, residual displacement {:.2e} -> {:.2e} m",
-                   component, r.raw_residual_velocity, r.residual_velocity, r.raw_residual_displacement,
-                   r.residual_displacement);
+  session.log.info("{} motion {}: PGA {:.3f} g at {:.2f} s, PGV {:.3f} m/s, PGD {:.3f} m, Arias {:.2f} m/s, "
+                   "D5-95 {:.1f} s",
+                   component, record.source, r.pga / standard_gravity, r.pga_time, r.pgv, r.pgd, r.arias,
+                   r.d5_95);
+  session.log.info(
+      "{} motion: residual velocity {:.2e} -> {:.2e} m/s, residual displacement {:.2e} -> {:.2e} m",
+      component, r.raw_residual_velocity, r.residual_velocity, r.raw_residual_displacement,
+      r.residual_displacement);
   for (const std::string& note : record.notes) session.log.detail("{}", note);
   for (const std::string& warning : r.warnings) session.log.warn("{}", warning);
 }
 
-std::optional<GroundMotion> load(Session& session, const std::string& component, std::optional<MotionSource> source,
-                                 const std::string& replacement, Motion& motion)
+std::optional<GroundMotion> load(Session& session, const std::string& component,
+                                 std::optional<MotionSource> source, const std::string& replacement,
+                                 Motion& motion)
 {
   const Options& options = session.options;
   if (!replacement.empty())
@@ -76,9 +82,11 @@ std::optional<GroundMotion> load(Session& session, const std::string& component,
   }
   if (settings.end == MotionEnd::time) fade_out(result, settings.end_time);
   report(session, component, record, result);
-  motion.identity.push_back({"motion." + component,
-                             fmt::format("sha256 {}, dt {} s, scale {}", read_source.digest, record.dt, processing.scale)});
-  const std::string name = source->built_in() ? "built_in" : std::filesystem::path(record.source).stem().string();
+  motion.identity.push_back(
+      {"motion." + component,
+       fmt::format("sha256 {}, dt {} s, scale {}", read_source.digest, record.dt, processing.scale)});
+  const std::string name =
+      source->built_in() ? "built_in" : std::filesystem::path(record.source).stem().string();
   motion.title += (motion.title.empty() ? "" : " + ") + name;
   return result;
 }
@@ -88,8 +96,9 @@ Motion load_motion(Session& session)
 {
   const MotionSettings& settings = session.scene.seismic.motion;
   if (settings.end == MotionEnd::self_driven)
-    throw Error(exit_code::bad_input, session.scene.path.string() + ": seismic.motion.end: self_driven is not offered; "
-                                                                    "give a time, or never");
+    throw Error(exit_code::bad_input, session.scene.path.string() +
+                                          ": seismic.motion.end: self_driven is not offered; "
+                                          "give a time, or never");
   Motion motion;
   motion.wave = std::make_shared<IncomingWave>();
   motion.wave->horizontal = load(session, "horizontal", settings.horizontal, session.options.motion, motion);

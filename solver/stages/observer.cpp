@@ -56,7 +56,8 @@ Frame::Field frame_field(const Domain& domain, const std::string& name)
     {
       if (material.state_fields()[f].name != name) continue;
       result.unit = material.state_fields()[f].unit;
-      std::copy(material.state[f].begin(), material.state[f].end(), result.values.begin() + domain.material_begin[m]);
+      std::copy(material.state[f].begin(), material.state[f].end(),
+                result.values.begin() + domain.material_begin[m]);
     }
   }
   return result;
@@ -83,11 +84,13 @@ void Observer::add_series()
     velocity_ = history_.add_series("gauges/velocity", "m/s", {gauge, component}, fast_);
     acceleration_ = history_.add_series("gauges/acceleration", "m/s2", {gauge, component}, fast_);
   }
-  for (const auto& [name, column] : {std::pair{"left", model_.left.get()}, std::pair{"right", model_.right.get()}})
+  for (const auto& [name, column] :
+       {std::pair{"left", model_.left.get()}, std::pair{"right", model_.right.get()}})
   {
     if (!column) continue;
     const std::string group = std::string("free_field/") + name + "/";
-    sides_.push_back({name, column, history_.add_series(group + "surface_displacement", "m", {component}, fast_),
+    sides_.push_back({name, column,
+                      history_.add_series(group + "surface_displacement", "m", {component}, fast_),
                       history_.add_series(group + "surface_velocity", "m/s", {component}, fast_),
                       history_.add_series(group + "base_displacement", "m", {component}, fast_),
                       history_.add_series(group + "base_velocity", "m/s", {component}, fast_)});
@@ -110,7 +113,8 @@ void Observer::place_gauges()
   {
     const double y = std::min(point.y, scene.ground_height(point.x));
     if (y < point.y)
-      session_.log.info("gauge {}: {} m above the ground, moved down to y = {:.3f} m", point.name, point.y - y, y);
+      session_.log.info("gauge {}: {} m above the ground, moved down to y = {:.3f} m", point.name,
+                        point.y - y, y);
     const Particles& p = main.particles;
     int nearest = 0;
     const auto distance = [&](int k) { return std::hypot(p.reference_x[k] - point.x, p.reference_y[k] - y); };
@@ -152,7 +156,8 @@ void Observer::sample_gauges(const Clock& clock)
   for (const Side& side : sides_)
   {
     const Domain& column = *side.column->domain;
-    const int top = side.column->particle_of_row(side.column->rows() - 1), bottom = side.column->particle_of_row(0);
+    const int top = side.column->particle_of_row(side.column->rows() - 1),
+              bottom = side.column->particle_of_row(0);
     history_.record(side.surface_displacement, displacement_of(column, top));
     history_.record(side.surface_velocity, velocity_of(column, top));
     history_.record(side.base_displacement, displacement_of(column, bottom));
@@ -218,7 +223,8 @@ void Observer::write_frame(const Clock& clock)
   frame.ids = main.particles.id;
   frame.materials.resize(main.particles.size());
   for (std::size_t m = 0; m < main.materials.size(); ++m)
-    std::fill(frame.materials.begin() + main.material_begin[m], frame.materials.begin() + main.material_begin[m + 1], m);
+    std::fill(frame.materials.begin() + main.material_begin[m],
+              frame.materials.begin() + main.material_begin[m + 1], m);
   const std::string name = frame_name(static_cast<std::int64_t>(frames_.size()));
   mpm::write_frame(*session_.folder / name, frame, session_.provenance());
   frames_.push_back({name, clock.time()});
@@ -251,7 +257,10 @@ void Observer::load(const h5::File& file)
   greatest_speed_ = group.attribute_double("greatest_speed");
 }
 
-void Observer::write() const { history_.write(*session_.folder / "history.h5", session_.provenance()); }
+void Observer::write() const
+{
+  history_.write(*session_.folder / "history.h5", session_.provenance());
+}
 
 nlohmann::json Observer::summary() const
 {

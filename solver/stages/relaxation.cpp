@@ -9,9 +9,9 @@ namespace mpm
 {
 namespace
 {
-constexpr int check_every = 10;      // steps between looks at the criteria
-constexpr int held_checks = 10;      // so that they hold over 100 steps
-constexpr double handover = 10;      // elastic statics are done at this multiple of the wanted unbalance
+constexpr int check_every = 10;        // steps between looks at the criteria
+constexpr int held_checks = 10;        // so that they hold over 100 steps
+constexpr double handover = 10;        // elastic statics are done at this multiple of the wanted unbalance
 constexpr double creep_warning = 1e-3; // m/s
 
 /// Smooth ramp with zero slope and curvature at both ends.
@@ -53,7 +53,8 @@ void Relaxation::set_phase(Phase phase)
 {
   phase_ = phase;
   held_ = 0;
-  model_.for_each_domain([&](Domain& domain, const std::string&) { domain.plastic = phase == Phase::plastic; });
+  model_.for_each_domain([&](Domain& domain, const std::string&)
+                         { domain.plastic = phase == Phase::plastic; });
 }
 
 void Relaxation::load(const h5::File& file)
@@ -115,7 +116,8 @@ std::string Relaxation::failure() const
   std::string text;
   if (unbalanced_ >= until.unbalanced)
     text += fmt::format(" unbalanced force {:.2e} is not below {:.2e};", unbalanced_, until.unbalanced);
-  if (kinetic_ >= until.kinetic) text += fmt::format(" kinetic energy ratio {:.2e} is not below {:.2e};", kinetic_, until.kinetic);
+  if (kinetic_ >= until.kinetic)
+    text += fmt::format(" kinetic energy ratio {:.2e} is not below {:.2e};", kinetic_, until.kinetic);
   if (phase_ == Phase::elastic && plasticity_) text += " the elastic state was not reached;";
   if (text.empty()) text = " the criteria did not hold for 100 steps;";
   return text;
@@ -125,9 +127,10 @@ void Relaxation::report(const Clock& clock)
 {
   const auto [area, strain] = yielded(*model_.main);
   const double speed = greatest_speed(*model_.main);
-  session_.log.info("static state at t = {:.2f} s: unbalanced {:.2e}, kinetic {:.2e}, greatest speed {:.2e} m/s, "
-                    "yielded {:.1f} m2, greatest plastic strain {:.2e}",
-                    clock.time(), unbalanced_, kinetic_, speed, area, strain);
+  session_.log.info(
+      "static state at t = {:.2f} s: unbalanced {:.2e}, kinetic {:.2e}, greatest speed {:.2e} m/s, "
+      "yielded {:.1f} m2, greatest plastic strain {:.2e}",
+      clock.time(), unbalanced_, kinetic_, speed, area, strain);
   if (speed > creep_warning)
     session_.log.warn("the ground still creeps at {:.1e} m/s: it stands barely, or not", speed);
 }
@@ -137,12 +140,11 @@ int Relaxation::run(Clock& clock)
   const Convergence& until = session_.scene.statics.until;
   Progress progress(session_.log, {"static", model_.main->particles.size(), parallel::threads(), clock.step,
                                    clock.time() / until.at_most});
-  const auto moment = [&]
-  {
+  const auto moment = [&] {
     return Moment{clock.time(), NAN, clock.step, kinetic_energy(*model_.main), greatest_speed(*model_.main)};
   };
-  session_.log.info("static stage: {} particles, dt = {:.3e} s, gravity in {} s", model_.main->particles.size(), clock.dt,
-                    session_.scene.statics.ramp);
+  session_.log.info("static stage: {} particles, dt = {:.3e} s, gravity in {} s",
+                    model_.main->particles.size(), clock.dt, session_.scene.statics.ramp);
   session_.loop_begins(clock.step);
   bool done = false;
   while (!done && clock.time() < until.at_most)
@@ -173,39 +175,16 @@ int Relaxation::run(Clock& clock)
                                 {"greatest_plastic_strain", strain}};
   if (!done)
   {
-    session_.log.error("static stage did not converge by t = {:.1f} s:{} the slope does not stand, or static.until "
-                       "asks for more than the scene gives (static.until.at_most allows more time)",
-                       clock.time(), failure());
+    session_.log.error(
+        "static stage did not converge by t = {:.1f} s:{} the slope does not stand, or static.until "
+        "asks for more than the scene gives (static.until.at_most allows more time)",
+        clock.time(), failure());
     session_.finish("static", exit_code::not_converged, model_, clock, measures);
     return exit_code::not_converged;
   }
   save("final.h5", clock);
   session_.folder->prune(0);
   session_.finish("static", exit_code::done, model_, clock, measures);
-  return exit_code::done;
-}
-
-int predict(Session& session, Model& model, const Clock& clock, double duration)
-{
-  const Case& scene = session.scene;
-  for (const Material& material : model.main->materials)
-  {
-    const Elastic& e = material.elastic();
-    session.log.info("{}: density {} kg/m3, c_s {:.1f} m/s, c_p {:.1f} m/s, ten cells a wavelength up to {:.1f} Hz",
-                     material.name, e.density, e.shear_speed(), e.pressure_speed(),
-                     e.shear_speed() / (10 * scene.grid.spacing));
-  }
-  constexpr int probe_steps = 20;
-  using Wall = std::chrono::steady_clock;
-  advance(model, 0, clock.dt);
-  const auto start = Wall::now();
-  for (int k = 1; k <= probe_steps; ++k) advance(model, k * clock.dt, clock.dt);
-  const double per_step = std::chrono::duration<double>(Wall::now() - start).count() / probe_steps;
-  const double steps = duration / clock.dt;
-  const double megabytes = (model.main->particles.size() * 160.0 + model.main->grid.nodes() * 72.0) * 1e-6;
-  session.log.info("{} particles, about {:.0f} MB, dt {:.3e} s, {:.0f} steps for {} s, about {} on {} threads",
-                   model.main->particles.size(), megabytes, clock.dt, steps, duration,
-                   duration_text(per_step * steps), parallel::threads());
   return exit_code::done;
 }
 } // namespace mpm

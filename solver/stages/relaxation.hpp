@@ -4,7 +4,8 @@
 
 namespace mpm
 {
-/// The static stage: gravity ramp, local damping, elastic equilibrium, then plastic equilibrium (METHODS section 3).
+/// The static stage: gravity ramp, local damping, elastic equilibrium, then plastic equilibrium (METHODS
+/// section 3).
 class Relaxation
 {
 public:
@@ -29,12 +30,9 @@ private:
   Session& session_;
   Model& model_;
   Phase phase_ = Phase::elastic;
-  double weight_ = 0;    ///< potential energy scale, J per m
+  double weight_ = 0; ///< potential energy scale, J per m
   double unbalanced_ = 1, kinetic_ = 1;
   std::int64_t held_ = 0; ///< checks in a row at which all criteria held
   bool plasticity_ = false;
 };
-
-/// `--check`: prints particles, memory, time step, wave speeds and steps for `duration` s, after a short probe.
-int predict(Session& session, Model& model, const Clock& clock, double duration);
 } // namespace mpm

@@ -8,7 +8,7 @@
 #include "solver/mpm/parallel.hpp"
 #include "solver/stages/motion.hpp"
 #include "solver/stages/observer.hpp"
-#include "solver/stages/relaxation.hpp"
+#include "solver/stages/predict.hpp"
 
 #include <cmath>
 
@@ -16,10 +16,11 @@ namespace mpm
 {
 namespace
 {
-constexpr int check_every = 100;       // steps between looks at particles and wave speeds
-constexpr double courant_limit = 0.7;  // beyond it the step is shortened (METHODS section 7)
+constexpr int check_every = 100;      // steps between looks at particles and wave speeds
+constexpr double courant_limit = 0.7; // beyond it the step is shortened (METHODS section 7)
 
-/// A step within the case's Courant number that divides the gauges' interval, so that they are sampled evenly.
+/// A step within the case's Courant number that divides the gauges' interval, so that they are sampled
+/// evenly.
 double choose_step(const Case& scene, const Domain& main)
 {
   const double most = scene.safety * scene.grid.spacing / greatest_wave_speed(main);
@@ -31,20 +32,26 @@ double choose_step(const Case& scene, const Domain& main)
 void load_static_state(const Session& session, Model& model)
 {
   const h5::File file = open_complete(session.options.from);
-  const auto refuse = [&](const std::string& why) { throw Error(exit_code::bad_input, session.options.from.string() + ": " + why); };
-  if (!file.exists("clock") || file.open_group("clock").attribute_string("stage") != "static" || !file.exists("relaxation"))
+  const auto refuse = [&](const std::string& why)
+  { throw Error(exit_code::bad_input, session.options.from.string() + ": " + why); };
+  if (!file.exists("clock") || file.open_group("clock").attribute_string("stage") != "static" ||
+      !file.exists("relaxation"))
     refuse("is no static state; give the final.h5 of mpm-static");
   const std::vector<std::string> theirs = file.read_strings("ground"), ours = ground_settings(session.scene);
   for (std::size_t k = 0; k < std::max(theirs.size(), ours.size()); ++k)
   {
-    const std::string a = k < theirs.size() ? theirs[k] : "nothing", b = k < ours.size() ? ours[k] : "nothing";
-    if (a != b) refuse("was made with '" + a + "' where the case has '" + b + "'; run mpm-static for this case");
+    const std::string a = k < theirs.size() ? theirs[k] : "nothing",
+                      b = k < ours.size() ? ours[k] : "nothing";
+    if (a != b)
+      refuse("was made with '" + a + "' where the case has '" + b + "'; run mpm-static for this case");
   }
   model.for_each_domain(
       [&](Domain& domain, const std::string& column)
       {
-        if (column.empty()) load_particles(file, domain);
-        else load_particles(file.open_group("free_field/" + column), domain);
+        if (column.empty())
+          load_particles(file, domain);
+        else
+          load_particles(file.open_group("free_field/" + column), domain);
       });
 }
 
@@ -54,8 +61,9 @@ void check_step(Session& session, const Model& model, Clock& clock)
   const double h = session.scene.grid.spacing, speed = greatest_wave_speed(*model.main);
   if (clock.dt * speed <= courant_limit * h) return;
   clock.change_step(clock.dt / 2);
-  session.log.warn("t = {:.3f} s: the ground has loosened to a wave speed of {:.0f} m/s; the step is halved to {:.3e} s",
-                   clock.time(), speed, clock.dt);
+  session.log.warn(
+      "t = {:.3f} s: the ground has loosened to a wave speed of {:.0f} m/s; the step is halved to {:.3e} s",
+      clock.time(), speed, clock.dt);
 }
 
 /// What the engineer must know of the boundaries at the end.
@@ -66,8 +74,10 @@ void report_boundaries(Session& session, const Model& model)
     const double apart = side->separation(*model.main);
     session.log.info("{} side: up to {:.3f} m apart from its column at the end", side->name(), apart);
     if (apart > 0.5 * session.scene.grid.spacing)
-      session.log.warn("the {} side and its free-field column have moved {:.2f} m apart, more than half a cell: the "
-                       "model yields or sinks near its side; widen the domain or deepen the rock", side->name(), apart);
+      session.log.warn(
+          "the {} side and its free-field column have moved {:.2f} m apart, more than half a cell: the "
+          "model yields or sinks near its side; widen the domain or deepen the rock",
+          side->name(), apart);
   }
   for (const FreeFieldColumn* column : {model.left.get(), model.right.get()})
   {
@@ -76,7 +86,8 @@ void report_boundaries(Session& session, const Model& model)
     for (const Material& material : column->domain->materials)
       if (!material.state.empty())
         for (const double strain : material.state[0]) greatest = std::max(greatest, strain);
-    if (greatest > 0) session.log.info("{} yields: plastic strain up to {:.2e}", column->domain->name, greatest);
+    if (greatest > 0)
+      session.log.info("{} yields: plastic strain up to {:.2e}", column->domain->name, greatest);
   }
 }
 
@@ -120,14 +131,16 @@ private:
   int go(Clock& clock)
   {
     const double duration = session_.scene.seismic.duration;
-    Progress progress(session_.log, {"seismic", model_.main->particles.size(), parallel::threads(), clock.step,
-                                     clock.time() / duration});
+    Progress progress(session_.log, {"seismic", model_.main->particles.size(), parallel::threads(),
+                                     clock.step, clock.time() / duration});
     const auto moment = [&]
     {
       return Moment{clock.time(), clock.time() / duration, clock.step, kinetic_energy(*model_.main),
                     greatest_speed(*model_.main)};
     };
-    session_.log.info("seismic stage: {} particles, dt = {:.3e} s, {} s", model_.main->particles.size(), clock.dt, duration);
+    log_wave_fidelity(session_);
+    session_.log.info("seismic stage: {} particles, dt = {:.3e} s, {} s", model_.main->particles.size(),
+                      clock.dt, duration);
     session_.loop_begins(clock.step);
     while (clock.time() < duration * (1 - 1e-9))
     {
@@ -159,7 +172,14 @@ private:
 
   void save(const std::string& name, const Clock& clock)
   {
-    session_.write_checkpoint(name, "seismic", model_, clock, [&](h5::File& file) { observer_.save(file); });
+    session_.write_checkpoint(name, "seismic", model_, clock,
+                              [&](h5::File& file)
+                              {
+                                observer_.save(file);
+                                h5::Group motion = file.create_group("motion");
+                                for (const auto& [key, value] : motion_.identity)
+                                  motion.attribute(key, value);
+                              });
     observer_.write();
     session_.folder->prune(session_.scene.output.checkpoint.keep);
   }
@@ -168,6 +188,8 @@ private:
   {
     nlohmann::json result = observer_.summary();
     result["motion"] = motion_.title;
+    for (const auto& [key, value] : motion_.identity) result["digests"][key] = value;
+    if (!session_.options.from.empty()) result["digests"]["from"] = sha256_file(session_.options.from);
     return result;
   }
 
@@ -183,10 +205,17 @@ int run_seismic(Session& session)
   const Options& options = session.options;
   if (scene.seismic.duration <= 0)
     throw Error(exit_code::bad_input, scene.path.string() + ": has no seismic section; nothing to shake");
-  if (scene.seismic.base == BaseKind::fixed && (scene.seismic.motion.horizontal || scene.seismic.motion.vertical))
+  if (scene.seismic.base == BaseKind::fixed &&
+      (scene.seismic.motion.horizontal || scene.seismic.motion.vertical))
     session.log.warn("seismic.base: a fixed base takes no motion: the record is not applied");
   if (options.from.empty() && scene.statics.gravity != 0)
     throw Error(exit_code::usage, "mpm-seismic: --from is missing: give the final.h5 of mpm-static");
+
+  if (options.fresh && !options.from.empty() &&
+      std::filesystem::weakly_canonical(options.from).parent_path() ==
+          std::filesystem::weakly_canonical(options.out))
+    throw Error(exit_code::usage,
+                options.out.string() + ": --fresh would remove the static state; give another --out");
 
   // 1. The motion and the scene.
   const Motion motion = load_motion(session);
@@ -209,11 +238,14 @@ int run_seismic(Session& session)
 
   // 3. The state: where an interrupted run stopped, or the switch from the static state.
   Shaking shaking(session, model, motion);
-  if (const auto file = session.newest_checkpoint()) shaking.resume(*file, clock);
+  if (const auto file = session.newest_checkpoint())
+    shaking.resume(*file, clock);
   else
   {
-    if (options.from.empty()) session.log.info("no gravity: starts from a stress-free state");
-    else load_static_state(session, model);
+    if (options.from.empty())
+      session.log.info("no gravity: starts from a stress-free state");
+    else
+      load_static_state(session, model);
     shaking.start(clock);
   }
 
@@ -223,4 +255,7 @@ int run_seismic(Session& session)
 } // namespace
 } // namespace mpm
 
-int main(int argc, char** argv) { return mpm::run_program(argc, argv, "mpm-seismic", mpm::run_seismic); }
+int main(int argc, char** argv)
+{
+  return mpm::run_program(argc, argv, "mpm-seismic", mpm::run_seismic);
+}

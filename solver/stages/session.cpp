@@ -50,12 +50,15 @@ std::optional<int> parse(int argc, char** argv, Options& options)
     app.add_option("--motion", options.motion, "record instead of the case's horizontal one");
     app.add_option("--vertical", options.vertical, "record instead of the case's vertical one");
     app.add_option("--record-dt", options.record_dt, "time step in s of a --motion that does not tell it");
-    app.add_option("--record-unit", options.record_unit, "unit of a --motion that does not tell it (g, m/s2, gal)");
+    app.add_option("--record-unit", options.record_unit,
+                   "unit of a --motion that does not tell it (g, m/s2, gal)");
     app.add_option("--scale", options.scale, "factor on the motion");
   }
   app.add_flag("--check", options.check, "validate and predict the cost; run nothing");
   app.add_option("--threads", options.threads, "threads (default: all)")->check(CLI::Range(1, 4096));
-  app.add_option("--set", options.overrides, "key.path=value: override a key of the case")->expected(1)->take_all();
+  app.add_option("--set", options.overrides, "key.path=value: override a key of the case")
+      ->expected(1)
+      ->take_all();
   app.add_option("--max-wall", wall, "stop with a checkpoint after this time (2h, 90min, 1800s)");
   app.add_flag("--fresh", options.fresh, "start anew in a folder that holds results");
   app.add_flag("--quiet", quiet, "warnings and errors only");
@@ -99,11 +102,15 @@ void Session::open_folder(const RunFolder::Identity& identity)
 {
   folder = std::make_unique<RunFolder>(options.out, identity, options.fresh);
   log.open(*folder / "log.txt");
-  if (!folder->locked()) log.warn("{}: the file system has no locks: keep other runs out", options.out.string());
+  if (!folder->locked())
+    log.warn("{}: the file system has no locks: keep other runs out", options.out.string());
   log.info("{}", options.command);
 }
 
-double Session::wall_seconds() const { return std::chrono::duration<double>(Wall::now() - start_).count(); }
+double Session::wall_seconds() const
+{
+  return std::chrono::duration<double>(Wall::now() - start_).count();
+}
 
 bool Session::must_stop() const
 {
@@ -112,16 +119,18 @@ bool Session::must_stop() const
 
 bool Session::checkpoint_due() const
 {
-  return std::chrono::duration<double>(Wall::now() - last_checkpoint_).count() >= scene.output.checkpoint.every;
+  return std::chrono::duration<double>(Wall::now() - last_checkpoint_).count() >=
+         scene.output.checkpoint.every;
 }
 
 Provenance Session::provenance() const
 {
-  return {options.program, SEISMPM_VERSION, SEISMPM_GIT, SEISMPM_BUILD, options.command, utc_now(), host_name()};
+  return {options.program, SEISMPM_VERSION, SEISMPM_GIT, SEISMPM_BUILD,
+          options.command, utc_now(),       host_name()};
 }
 
-void Session::write_checkpoint(const std::string& name, std::string_view stage, Model& model, const Clock& clock,
-                               const std::function<void(h5::File&)>& fill)
+void Session::write_checkpoint(const std::string& name, std::string_view stage, Model& model,
+                               const Clock& clock, const std::function<void(h5::File&)>& fill)
 {
   write_file_atomically(*folder / name,
                         [&](h5::File& file)
@@ -175,31 +184,34 @@ void Session::loop_begins(std::int64_t step)
   first_step_ = step;
 }
 
-void Session::finish(std::string_view stage, int exit, const Model& model, const Clock& clock, nlohmann::json more)
+void Session::finish(std::string_view stage, int exit, const Model& model, const Clock& clock,
+                     nlohmann::json more)
 {
   const double loop = std::chrono::duration<double>(Wall::now() - loop_start_).count();
   const double steps = static_cast<double>(clock.step - first_step_);
   const double particles = model.main->particles.size();
-  nlohmann::json summary{{"name", scene.name},
-                         {"stage", stage},
-                         {"exit", exit},
-                         {"time", clock.time()},
-                         {"steps", clock.step},
-                         {"dt", clock.dt},
-                         {"particles", model.main->particles.size()},
-                         {"threads", parallel::threads()},
-                         {"wall_seconds", wall_seconds()},
-                         {"ns_per_particle_step", 1e9 * loop * parallel::threads() / std::max(1.0, particles * steps)},
-                         {"warnings", log.warnings()},
-                         {"case_sha256", sha256(scene.text)},
-                         {"version", SEISMPM_VERSION},
-                         {"git", SEISMPM_GIT},
-                         {"build", SEISMPM_BUILD},
-                         {"command", options.command}};
+  nlohmann::json summary{
+      {"name", scene.name},
+      {"stage", stage},
+      {"exit", exit},
+      {"time", clock.time()},
+      {"steps", clock.step},
+      {"dt", clock.dt},
+      {"particles", model.main->particles.size()},
+      {"threads", parallel::threads()},
+      {"wall_seconds", wall_seconds()},
+      {"ns_per_particle_step", 1e9 * loop * parallel::threads() / std::max(1.0, particles * steps)},
+      {"warnings", log.warnings()},
+      {"case_sha256", sha256(scene.text)},
+      {"version", SEISMPM_VERSION},
+      {"git", SEISMPM_GIT},
+      {"build", SEISMPM_BUILD},
+      {"command", options.command}};
   summary.update(more);
   write_text_atomically(*folder / "summary.json", summary.dump(2) + "\n");
   log.info("{} ends with {} after {}: {} steps, {:.1f} ns per particle-step and core", stage, exit,
-           duration_text(wall_seconds()), clock.step - first_step_, summary["ns_per_particle_step"].get<double>());
+           duration_text(wall_seconds()), clock.step - first_step_,
+           summary["ns_per_particle_step"].get<double>());
 }
 
 void load_model(const h5::File& file, Model& model, Clock& clock)
@@ -212,8 +224,10 @@ void load_model(const h5::File& file, Model& model, Clock& clock)
   model.for_each_domain(
       [&](Domain& domain, const std::string& column)
       {
-        if (column.empty()) load_domain(file, domain);
-        else load_domain(file.open_group("free_field/" + column), domain);
+        if (column.empty())
+          load_domain(file, domain);
+        else
+          load_domain(file.open_group("free_field/" + column), domain);
       });
 }
 
@@ -221,8 +235,8 @@ std::vector<std::string> ground_settings(const Case& scene)
 {
   std::vector<std::string> lines;
   for (const auto& [key, value] : scene.settings)
-    for (const std::string_view part : {"grid.", "domain.", "surfaces.", "regions", "materials.", "static.gravity",
-                                        "seismic.base", "seismic.sides"})
+    for (const std::string_view part : {"grid.", "domain.", "surfaces.", "regions", "materials.",
+                                        "static.gravity", "seismic.base", "seismic.sides"})
       if (key.starts_with(part)) lines.push_back(key + " = " + value);
   return lines;
 }
@@ -260,7 +274,8 @@ int run_program(int argc, char** argv, const std::string& name, int (*stage)(Ses
   }
   catch (const std::exception& error)
   {
-    std::cerr << name << ": " << error.what() << " (a bug of ours: please report it with the command and the case)\n";
+    std::cerr << name << ": " << error.what()
+              << " (a bug of ours: please report it with the command and the case)\n";
     return exit_code::bug;
   }
 }

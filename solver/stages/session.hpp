@@ -14,16 +14,16 @@ namespace mpm
 /// The command line of both programs.
 struct Options
 {
-  std::string program;      ///< mpm-static or mpm-seismic
-  std::string command;      ///< as it was typed
+  std::string program; ///< mpm-static or mpm-seismic
+  std::string command; ///< as it was typed
   std::filesystem::path case_file, out, from;
   std::string motion, vertical; ///< records that replace the case's
   double record_dt = NAN;       ///< s, of a record on the command line that does not tell it
   std::string record_unit;      ///< likewise
   double scale = 1;
   std::vector<std::string> overrides;
-  int threads = 0;          ///< 0: as many as the machine has
-  double max_wall = 0;      ///< s, 0: no limit
+  int threads = 0;     ///< 0: as many as the machine has
+  double max_wall = 0; ///< s, 0: no limit
   bool check = false, fresh = false;
   Verbosity verbosity = Verbosity::normal;
 };
@@ -87,6 +87,7 @@ int run_program(int argc, char** argv, const std::string& name, int (*stage)(Ses
 /// Loads clock and domains of a checkpoint of the same stage.
 void load_model(const h5::File& file, Model& model, Clock& clock);
 
-/// The case's keys that shape the ground itself, as `key = value` lines: what static and seismic stage must share.
+/// The case's keys that shape the ground itself, as `key = value` lines: what static and seismic stage must
+/// share.
 std::vector<std::string> ground_settings(const Case& scene);
 } // namespace mpm

@@ -4,8 +4,8 @@
 //   mpm-static cases/slope/case.yaml --out run/static      goes on after an interruption
 //   mpm-static cases/slope/case.yaml --check               says what it would cost
 
+#include "solver/stages/predict.hpp"
 #include "solver/stages/relaxation.hpp"
-#include "solver/stages/session.hpp"
 
 namespace mpm
 {
@@ -15,8 +15,9 @@ int run_static(Session& session)
 {
   const Case& scene = session.scene;
   if (scene.statics.gravity == 0)
-    throw Error(exit_code::bad_input, scene.path.string() + ": static.gravity: is 0, so there is no static state to "
-                                                            "find; run mpm-seismic without --from");
+    throw Error(exit_code::bad_input, scene.path.string() +
+                                          ": static.gravity: is 0, so there is no static state to "
+                                          "find; run mpm-seismic without --from");
   // 1. The undeformed scene between kinematic walls.
   Model model = make_model(scene);
   add_static_boundaries(model, scene);
@@ -47,4 +48,7 @@ int run_static(Session& session)
 } // namespace
 } // namespace mpm
 
-int main(int argc, char** argv) { return mpm::run_program(argc, argv, "mpm-static", mpm::run_static); }
+int main(int argc, char** argv)
+{
+  return mpm::run_program(argc, argv, "mpm-static", mpm::run_static);
+}

@@ -21,8 +21,10 @@ inline Case scene_from(const std::string& text)
   return load_case(folder.path() / "case.yaml");
 }
 
-/// Rock (rho 2200 kg/m3, E 250 MPa, nu .25) up to `rock` m, soil (1800, 40 MPa, .35) up to `top` m, `width` m wide.
-inline std::string level_ground(double spacing, int per_cell, double width, double rock, double top, double gravity)
+/// Rock (rho 2200 kg/m3, E 250 MPa, nu .25) up to `rock` m, soil (1800, 40 MPa, .35) up to `top` m, `width` m
+/// wide.
+inline std::string level_ground(double spacing, int per_cell, double width, double rock, double top,
+                                double gravity)
 {
   return fmt::format(R"(schema: seismpm-case/1
 name: level
@@ -47,7 +49,8 @@ seismic:
                      spacing, per_cell, width, rock, width, rock, top, width, top, gravity);
 }
 
-/// An upgoing velocity pulse v = peak * sin^4(pi t / length) for 0 < t < length (s): smooth to its third derivative.
+/// An upgoing velocity pulse v = peak * sin^4(pi t / length) for 0 < t < length (s): smooth to its third
+/// derivative.
 inline GroundMotion pulse(double peak, double length, double total)
 {
   GroundMotion motion;

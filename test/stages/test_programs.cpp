@@ -53,7 +53,7 @@ static:
   ramp: 3 s
   until: {unbalanced: 1e-4, kinetic: 1e-8, at_most: 30 s}
 seismic:
-  duration: 2 s
+  duration: 1.2 s
   motion: {recorded_as: outcrop, horizontal: {file: shake.txt, format: column, dt: 0.01 s, unit: m/s2}}
 output:
   frames: {every: 0.1 s}
@@ -61,13 +61,13 @@ output:
   checkpoint: {every: 0.05 s, keep: 2}
 )";
 
-/// 2 s of a sine in m/s2 that grows and fades.
+/// 1.2 s of a sine in m/s2 that grows and fades.
 std::string sine(double amplitude, double frequency)
 {
   std::string text;
-  for (int k = 0; k <= 200; ++k)
+  for (int k = 0; k <= 120; ++k)
   {
-    const double t = 0.01 * k, envelope = std::pow(std::sin(std::numbers::pi * t / 2), 2);
+    const double t = 0.01 * k, envelope = std::pow(std::sin(std::numbers::pi * t / 1.2), 2);
     text += std::to_string(amplitude * envelope * std::sin(2 * std::numbers::pi * frequency * t)) + "\n";
   }
   return text;
@@ -166,7 +166,7 @@ public:
   Bench()
   {
     put(folder_ / "case.yaml", cut);
-    put(folder_ / "shake.txt", sine(9, 2));
+    put(folder_ / "shake.txt", sine(12, 2));
   }
   fs::path operator/(const std::string& name) const { return folder_ / name; }
   std::string path(const std::string& name) const { return folder_ / name; }
@@ -334,7 +334,7 @@ void run_out_of_time(const Bench& bench, const std::string& program, Arguments a
   const Ending ending = bench.run(program, arguments);
   INFO(ending.said);
   REQUIRE(ending.code == 75);
-  CHECK(checkpoints(out).size() == 1);
+  CHECK_FALSE(checkpoints(out).empty());
 }
 
 /// The files of a folder and when they were written.
@@ -476,7 +476,7 @@ TEST_CASE("a finished run that is started again ends at once with 0 and rewrites
   }
 }
 
-TEST_CASE("--fresh starts anew in a folder that holds results", "[stages]")
+TEST_CASE("the option --fresh starts anew in a folder that holds results", "[stages]")
 {
   const Bench bench;
   REQUIRE(bench.run_static("static").code == 0);
@@ -584,6 +584,24 @@ TEST_CASE("a folder that holds another setting's run is refused with 73 and the 
   CHECK(times(bench / "static") == before);
 }
 
+TEST_CASE("a profile file with another text makes another ground: 73 in its folder, 65 for its static state",
+          "[stages]")
+{
+  const Bench bench;
+  put(bench / "case.yaml",
+      replaced(cut, "{points: [[0 m, 14 m], [11 m, 14 m], [18 m, 9 m], [30 m, 9 m]]}", "{file: cut.csv}"));
+  put(bench / "cut.csv", "0, 14\n11, 14\n18, 9\n30, 9\n");
+  bench.make_static();
+  CHECK(bench.run_static("static").code == 0);
+  put(bench / "cut.csv", "0, 14\n11.2, 14\n17.8, 9\n30, 9\n");
+  const Ending again = bench.run_static("static");
+  CHECK(again.code == 73);
+  CHECK_THAT(again.said, Contains("surfaces.ground"));
+  const Ending shaken = bench.run_seismic("a", {"--max-wall", "0.1 s"});
+  CHECK(shaken.code == 65);
+  CHECK_THAT(shaken.said, Contains("surfaces.ground"));
+}
+
 TEST_CASE("a folder that a live run holds is refused with 73, and free again when that run has ended",
           "[stages]")
 {
@@ -633,9 +651,9 @@ TEST_CASE("a run that blows up exits with 80 and keeps its last good checkpoint"
   const Bench bench;
   bench.make_static();
   // The pulse has 10 km/s, 12 cells a step.
-  put(bench / "blow.txt", sine(9, 2) + "1000000\n-1000000\n" + sine(9, 2));
+  put(bench / "blow.txt", sine(12, 2) + "1000000\n-1000000\n" + sine(12, 2));
   const Ending ending = bench.run_seismic("out", {"--motion", bench.path("blow.txt"), "--record-dt", "0.01",
-                                                  "--record-unit", "m/s2", "--set", "seismic.duration=4 s",
+                                                  "--record-unit", "m/s2", "--set", "seismic.duration=2 s",
                                                   "--set", "output.checkpoint.every=0.05 s"});
   INFO(ending.said);
   CHECK(ending.code == 80);
@@ -712,7 +730,7 @@ TEST_CASE("a refused static state leaves the output folder free for the right on
   CHECK(bench.run_seismic("a", {"--max-wall", "0.1 s"}).code == 75);
 }
 
-TEST_CASE("--check exits with 0, tells the cost, and runs and writes nothing", "[stages]")
+TEST_CASE("the option --check tells the cost, runs and writes nothing, and exits with 0", "[stages]")
 {
   const Bench bench;
   const Ending statics = bench.run("mpm-static", {bench.path("case.yaml"), "--check"});

@@ -57,10 +57,12 @@ double amplification_error(WaveKind kind, double spacing)
   const Trace trace = shake_column(scene, wave, 6);
   const std::vector<double>& surface = kind == WaveKind::S ? trace.x : trace.y;
   const Elastic soil = scene.materials[1].elastic(), rock = scene.materials[0].elastic();
-  const auto speed = [kind](const Elastic& e) { return kind == WaveKind::S ? e.shear_speed() : e.pressure_speed(); };
+  const auto speed = [kind](const Elastic& e)
+  { return kind == WaveKind::S ? e.shear_speed() : e.pressure_speed(); };
   const double contrast = soil.density * speed(soil) / (rock.density * speed(rock));
   std::vector<double> input;
-  for (std::size_t k = 0; k < trace.x.size(); ++k) input.push_back(2 * pulse_at(0.01, 0.12, (k + 1) * trace.dt));
+  for (std::size_t k = 0; k < trace.x.size(); ++k)
+    input.push_back(2 * pulse_at(0.01, 0.12, (k + 1) * trace.dt));
   double error = 0, greatest = 0;
   for (double f = 0.25; f <= 10; f += 0.05)
   {
@@ -76,8 +78,8 @@ double amplification_error(WaveKind kind, double spacing)
 
 TEST_CASE("an upgoing S wave doubles at the surface and does not come back (V11)", "[stages]")
 {
-  // Uniform rock 20 m high; the pulse's shortest strong wavelength (0.12 s) is 26 cells. Phase error there is 1 %, of
-  // a shape that changes by its peak in 0.03 s: delay H/c = 0.094 s * 1 % / 0.03 s = 3 %.
+  // Uniform rock 20 m high; the pulse's shortest strong wavelength (0.12 s) is 26 cells. Phase error there is
+  // 1 %, of a shape that changes by its peak in 0.03 s: delay H/c = 0.094 s * 1 % / 0.03 s = 3 %.
   const Case scene = scene_from(level_ground(0.5, 3, 8, 20, 20, 0));
   IncomingWave wave;
   wave.horizontal = pulse(0.01, 0.12, 2);
@@ -127,7 +129,8 @@ TEST_CASE("soil on rock amplifies as the closed form says, better on a finer gri
 
 TEST_CASE("soil on rock amplifies P waves with the P modulus (V8, V10)", "[stages]")
 {
-  // Phase errors go with (frequency / wave speed)^2: those of the S wave above, divided by (c_p / c_s)^2 = 4.3.
+  // Phase errors go with (frequency / wave speed)^2: those of the S wave above, divided by (c_p / c_s)^2
+  // = 4.3.
   const double error = amplification_error(WaveKind::P, 0.5);
   INFO("error at 0.5 m: " << error);
   CHECK(error < 0.10 / 4.3);
@@ -157,11 +160,13 @@ TEST_CASE("a column under its own weight has the closed form's stress and settle
     if (k == top) continue;
     const double exact = -rock.density * g * (H - p.reference_y[k]);
     error = std::max(error, std::fabs(p.stress_yy[k] - exact));
-    lateral = std::max(lateral, std::fabs(p.stress_xx[k] - rock.poisson / (1 - rock.poisson) * p.stress_yy[k]));
+    lateral =
+        std::max(lateral, std::fabs(p.stress_xx[k] - rock.poisson / (1 - rock.poisson) * p.stress_yy[k]));
   }
-  const double settled = p.reference_y[top] - p.y[top], exact = rock.density * g * H * H / (2 * rock.p_modulus());
-  INFO("stress " << error / (rock.density * g * H) << ", lateral " << lateral / (rock.density * g * H) << ", settlement "
-                 << settled / exact - 1);
+  const double settled = p.reference_y[top] - p.y[top],
+               exact = rock.density * g * H * H / (2 * rock.p_modulus());
+  INFO("stress " << error / (rock.density * g * H) << ", lateral " << lateral / (rock.density * g * H)
+                 << ", settlement " << settled / exact - 1);
   CHECK(error < 0.005 * rock.density * g * H);
   // K0 holds for the elastic increments; large-strain volume changes of 1e-3 are all that is left.
   CHECK(lateral < 1e-3 * rock.density * g * H);

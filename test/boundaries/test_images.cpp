@@ -1,0 +1,145 @@
+#include "boundaries/images.hpp"
+#include "test/scenes.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace mpm;
+using namespace scenes;
+
+namespace
+{
+/// A random stressed block that fills the corners between a sticking base and two slipping sides (or sticking ones).
+Domain random_block()
+{
+  const double h = 0.7;
+  Domain domain = make_domain({{elastic(), {-3 * h, 5 * h, 14 * h, 9 * h}, h / 2}}, h, 0.49, 81);
+  random_stress(domain, 1e5, 82);
+  return domain;
+}
+
+std::vector<Wall> walls(bool base_slips, bool sides_slip)
+{
+  return {{Direction::y, 5, 1, base_slips}, {Direction::x, -3, 1, sides_slip}, {Direction::x, 11, -1, sides_slip}};
+}
+
+/// Greatest difference of the forces at nodes with real mass between folded walls and the images made of them,
+/// relative to the greatest force.
+double difference(const std::vector<Wall>& walls, double gravity_x, double gravity_y)
+{
+  const Threads one(1);
+  Domain folded = random_block();
+  folded.gravity_x = gravity_x;
+  folded.gravity_y = gravity_y;
+  Domain freed = same_particles(folded);
+  for (const Wall& wall : walls) folded.boundaries.push_back(std::make_unique<MirroredWall>(wall));
+  sort_particles(folded);
+  particles_to_grid(folded, 1e-3);
+  for (const auto& boundary : folded.boundaries) boundary->constrain(folded);
+
+  freed.boundaries.push_back(std::make_unique<FrozenImages>(make_images(folded, walls)));
+  sort_particles(freed);
+  particles_to_grid(freed, 1e-3);
+  REQUIRE(freed.grid.blocks == folded.grid.blocks);
+  double scale = 0, error = 0;
+  int compared = 0;
+  for (int k = 0; k < freed.grid.nodes(); ++k)
+  {
+    if (freed.grid.mass[k] <= 0) continue;
+    ++compared;
+    scale = std::max({scale, std::fabs(folded.grid.force_x[k]), std::fabs(folded.grid.force_y[k])});
+    error = std::max({error, std::fabs(folded.grid.force_x[k] - freed.grid.force_x[k]),
+                      std::fabs(folded.grid.force_y[k] - freed.grid.force_y[k])});
+  }
+  REQUIRE(compared > 180); // random particles need not reach the outermost lines
+  return error / scale;
+}
+} // namespace
+
+// Sums of up to 300 products in another order: 1e-14 or so; the bound leaves a hundred.
+TEST_CASE("Frozen images give the forces of the walls that they replace, corners too", "[boundaries]")
+{
+  for (const bool base_slips : {false, true})
+    for (const bool sides_slip : {false, true})
+    {
+      INFO((base_slips ? "slip" : "no slip") << " base, " << (sides_slip ? "slip" : "no slip") << " sides");
+      CHECK(difference(walls(base_slips, sides_slip), 0, 0) < 1e-12);
+      CHECK(difference(walls(base_slips, sides_slip), 0.4, -9.81) < 1e-12);
+    }
+}
+
+TEST_CASE("Only particles within four cells of a wall have images, corners three", "[boundaries]")
+{
+  const Domain domain = random_block();
+  const std::vector<Wall> all = walls(false, true);
+  const std::vector<Image> images = make_images(domain, all);
+  const Particles& p = domain.particles;
+  std::vector<int> count(p.size(), 0);
+  for (const Image& image : images) ++count[image.parent];
+  for (int id = 0; id < p.size(); ++id)
+  {
+    const int k = domain.place[id];
+    const double h = domain.grid.spacing;
+    const bool base = p.y[k] < 9 * h, side = p.x[k] < h || p.x[k] > 7 * h;
+    REQUIRE(count[id] == (base && side ? 3 : base || side ? 1 : 0));
+  }
+}
+
+TEST_CASE("An image stands opposite its parent and carries the mirrored stress and weight", "[boundaries]")
+{
+  const Threads one(1);
+  const double h = 1;
+  Domain domain = make_domain({{elastic(), {2, 7, 0.5, 0.5}}}, h);
+  domain.gravity_x = 2;
+  domain.gravity_y = -9;
+  Particles& p = domain.particles;
+  p.stress_xx[0] = 3;
+  p.stress_yy[0] = 5;
+  p.stress_xy[0] = 7;
+  const double V = p.volume[0], m = p.mass[0];
+  const std::vector<Wall> sticks{{Direction::y, 5, 1, false}}, slips{{Direction::y, 5, 1, true}};
+  const Image stuck = make_images(domain, sticks).at(0), slid = make_images(domain, slips).at(0);
+  CHECK(p.y[0] + stuck.offset_y == Approx(2.75).epsilon(1e-14));
+  CHECK(stuck.offset_x == 0);
+  // S = -1, M = diag(1, -1): [-xx, xy; -xy, yy] (METHODS section 13)
+  CHECK(stuck.stress_xx == -3 * V);
+  CHECK(stuck.stress_xy == 7 * V);
+  CHECK(stuck.stress_yx == -7 * V);
+  CHECK(stuck.stress_yy == 5 * V);
+  CHECK(stuck.weight_x == -2 * m);
+  CHECK(stuck.weight_y == 9 * m);
+  CHECK(slid.stress_xx == 3 * V);
+  CHECK(slid.stress_xy == -7 * V);
+  CHECK(slid.stress_yx == -7 * V);
+  CHECK(slid.stress_yy == 5 * V);
+  CHECK(slid.weight_x == 2 * m);
+  CHECK(slid.weight_y == 9 * m);
+}
+
+TEST_CASE("Images move with the body: their resultant stays when the body is shifted by part of a cell", "[boundaries]")
+{
+  const Threads one(1);
+  const std::vector<Wall> all = walls(false, true);
+  Domain domain = random_block();
+  domain.gravity_y = -9.81;
+  domain.boundaries.push_back(std::make_unique<FrozenImages>(make_images(domain, all)));
+  sort_particles(domain);
+  const auto resultant = [&]
+  {
+    particles_to_grid(domain, 1e-3);
+    std::array<double, 2> sum{};
+    for (int k = 0; k < domain.grid.nodes(); ++k)
+    {
+      sum[0] += domain.grid.force_x[k];
+      sum[1] += domain.grid.force_y[k];
+    }
+    return sum;
+  };
+  const auto first = resultant();
+  const double scale = 1e5 * 14 * domain.grid.spacing; // the stress times the width of the base
+  for (double& x : domain.particles.x) x += 0.37 * domain.grid.spacing;
+  for (double& y : domain.particles.y) y -= 0.41 * domain.grid.spacing;
+  const auto second = resultant();
+  // What is lost is given back as a uniform acceleration, to the round-off of sums of a few hundred forces.
+  CHECK(std::fabs(second[0] - first[0]) / scale < 1e-12);
+  CHECK(std::fabs(second[1] - first[1]) / scale < 1e-12);
+}
