@@ -4,19 +4,24 @@ namespace mpm
 {
 namespace
 {
+/// dt |L| beyond which a step has lost the motion.
+constexpr double greatest_gradient = 1;
+
 struct Velocities
 {
   Tile x, y;
 };
 
 /// v = sum w v, C = D^-1 sum w v (x_i - x)^T (eq. 3) and L = sum v grad w; moves the particles. Returns the
-/// greatest displacement component in cells, infinity when it is not a number.
+/// greatest displacement component in cells, infinity when a gradient is
+/// not a number or deforms the material wholly within the step.
 double gather(Particles& p, int begin, int count, const ChunkWeights& w, const Velocities& velocities,
               double spacing, double dt, VelocityGradients& L)
 {
   const double inverse_D = 3 / (spacing * spacing);
   double greatest = 0;
-  bool finite = true;
+  const double calmest = greatest_gradient / dt;
+  bool calm = true;
   for (int k = 0; k < count; ++k)
   {
     const int q = begin + k;
@@ -49,10 +54,11 @@ double gather(Particles& p, int begin, int count, const ChunkWeights& w, const V
     p.x[q] += dt * vx;
     p.y[q] += dt * vy;
     const double move = std::max(std::fabs(vx), std::fabs(vy));
-    finite = finite && std::isfinite(vx + vy);
+    calm =
+        calm && std::fabs(L.xx[k]) + std::fabs(L.xy[k]) + std::fabs(L.yx[k]) + std::fabs(L.yy[k]) <= calmest;
     greatest = std::max(greatest, move);
   }
-  return finite ? greatest * dt / spacing : std::numeric_limits<double>::infinity();
+  return calm ? greatest * dt / spacing : std::numeric_limits<double>::infinity();
 }
 
 double update_home(Domain& domain, const Home& home, double dt)

@@ -22,8 +22,8 @@ inline void cubic_weights(double f, double& w0, double& w1, double& w2, double& 
   const double g = 1 - f;
   w0 = g * g * g * (1.0 / 6);
   w1 = (2.0 / 3) + f * f * (0.5 * f - 1);
-  w2 = (2.0 / 3) + g * g * (0.5 * g - 1);
   w3 = f * f * f * (1.0 / 6);
+  w2 = (1 - w1) - (w0 + w3); // 2/3 - g^2 + g^3/2, rounded so that no momentum is lost on average
 }
 
 /// Derivatives of the four cubic B-splines with respect to f.

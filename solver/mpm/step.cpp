@@ -24,8 +24,10 @@ void wrap(Domain& domain)
 void find_diverged(const Domain& domain)
 {
   if (domain.greatest_move <= move_limit) return;
-  throw Diverged(domain.name + ": a particle moved more than a quarter of a cell in the step at t = " +
-                 std::to_string(domain.time) + " s; use a smaller time_step.safety");
+  throw Diverged(
+      domain.name +
+      ": a particle moves more than a quarter of a cell, or is deformed wholly, in the step at t = " +
+      std::to_string(domain.time) + " s; use a smaller time_step.safety");
 }
 } // namespace
 

@@ -4,13 +4,33 @@ namespace mpm
 {
 namespace
 {
-struct StrainIncrements
+/// Strain increments and half the rotation angle of a step, of a chunk of particles.
+struct Increments
 {
-  alignas(64) std::array<double, chunk_size> xx, yy, xy;
+  alignas(64) std::array<double, chunk_size> xx, yy, xy, half_angle;
 };
 
-/// Hughes-Winget rotation of the stress with the step's spin, in closed form (METHODS section 1).
-void rotate_stress(Particles& p, int begin, int count, const VelocityGradients& L, double dt)
+/// Changes the volume, and finds strain and rotation from the gradient at the middle of the step,
+/// A (1 + A / 2)^-1 with A = dt L: a rigid rotation of any size strains nothing (Hughes & Winget 1980).
+void deform(Particles& p, int begin, int count, const VelocityGradients& L, double dt, Increments& e)
+{
+  double* __restrict volume = &p.volume[begin];
+#pragma GCC ivdep
+  for (int k = 0; k < count; ++k)
+  {
+    const double xx = dt * L.xx[k], xy = dt * L.xy[k], yx = dt * L.yx[k], yy = dt * L.yy[k];
+    const double det = xx * yy - xy * yx;
+    const double middle = 1 / (1 + 0.5 * (xx + yy) + 0.25 * det);
+    volume[k] *= 1 + xx + yy + det;
+    e.xx[k] = middle * (xx + 0.5 * det);
+    e.yy[k] = middle * (yy + 0.5 * det);
+    e.xy[k] = middle * 0.5 * (xy + yx);
+    e.half_angle[k] = middle * 0.25 * (yx - xy);
+  }
+}
+
+/// Rotates the stress with the spin of the step, exactly orthogonally (METHODS section 1).
+void rotate_stress(Particles& p, int begin, int count, const Increments& e)
 {
   double* __restrict xx = &p.stress_xx[begin];
   double* __restrict yy = &p.stress_yy[begin];
@@ -18,25 +38,12 @@ void rotate_stress(Particles& p, int begin, int count, const VelocityGradients& 
 #pragma GCC ivdep
   for (int k = 0; k < count; ++k)
   {
-    const double a = 0.25 * dt * (L.yx[k] - L.xy[k]);
+    const double a = e.half_angle[k];
     const double scale = 1 / (1 + a * a), c = (1 - a * a) * scale, s = 2 * a * scale;
     const double sxx = xx[k], syy = yy[k], sxy = xy[k];
     xx[k] = c * c * sxx - 2 * c * s * sxy + s * s * syy;
     yy[k] = s * s * sxx + 2 * c * s * sxy + c * c * syy;
     xy[k] = c * s * (sxx - syy) + (c * c - s * s) * sxy;
-  }
-}
-
-void deform(Particles& p, int begin, int count, const VelocityGradients& L, double dt, StrainIncrements& e)
-{
-  double* __restrict volume = &p.volume[begin];
-#pragma GCC ivdep
-  for (int k = 0; k < count; ++k)
-  {
-    volume[k] *= (1 + dt * L.xx[k]) * (1 + dt * L.yy[k]) - dt * dt * L.xy[k] * L.yx[k];
-    e.xx[k] = dt * L.xx[k];
-    e.yy[k] = dt * L.yy[k];
-    e.xy[k] = 0.5 * dt * (L.xy[k] + L.yx[k]);
   }
 }
 } // namespace
@@ -45,9 +52,9 @@ void update_particles(Domain& domain, int material, int begin, int count, const 
                       double dt)
 {
   Particles& p = domain.particles;
-  StrainIncrements e;
+  Increments e;
   deform(p, begin, count, gradients, dt, e);
-  rotate_stress(p, begin, count, gradients, dt);
+  rotate_stress(p, begin, count, e);
   const StressBatch stress{
       count,       &p.stress_xx[begin], &p.stress_yy[begin], &p.stress_zz[begin], &p.stress_xy[begin],
       e.xx.data(), e.yy.data(),         e.xy.data()};

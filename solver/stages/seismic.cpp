@@ -223,10 +223,12 @@ int run_seismic(Session& session)
   Clock clock;
   clock.dt = choose_step(scene, *model.main);
   if (options.check) return predict(session, model, clock, scene.seismic.duration);
+  if (options.from.empty()) session.log.info("no gravity: starts from a stress-free state");
+  else load_static_state(session, model);
 
   // 2. The folder: ours, finished, or to be gone on with.
   RunFolder::Identity identity{{"stage", "seismic"}};
-  for (const auto& setting : scene.settings) identity.push_back(setting);
+  for (const auto& setting : settings_with_digests(scene)) identity.push_back(setting);
   identity.insert(identity.end(), motion.identity.begin(), motion.identity.end());
   if (!options.from.empty()) identity.push_back({"from", sha256_file(options.from)});
   session.open_folder(identity);
@@ -238,16 +240,8 @@ int run_seismic(Session& session)
 
   // 3. The state: where an interrupted run stopped, or the switch from the static state.
   Shaking shaking(session, model, motion);
-  if (const auto file = session.newest_checkpoint())
-    shaking.resume(*file, clock);
-  else
-  {
-    if (options.from.empty())
-      session.log.info("no gravity: starts from a stress-free state");
-    else
-      load_static_state(session, model);
-    shaking.start(clock);
-  }
+  if (const auto file = session.newest_checkpoint()) shaking.resume(*file, clock);
+  else shaking.start(clock);
 
   // 4. Shaking and run-out.
   return shaking.run(clock);

@@ -16,15 +16,13 @@ namespace
 {
 constexpr std::string_view checkpoint_schema = "seismpm-checkpoint/1";
 
-/// "2h", "90 min", "1800 s" or a bare number of seconds.
-double parse_wall_time(const std::string& text)
+/// "2h", "90 min", "1800 s", in s.
+double parse_wall_time(std::string text)
 {
-  const std::size_t unit = text.find_first_not_of("0123456789. ");
-  const double value = std::stod(text);
-  const std::string name = unit == std::string::npos ? "s" : text.substr(unit);
-  if (name == "s") return value;
-  if (name == "min" || name == "m") return 60 * value;
-  if (name == "h") return 3600 * value;
+  const std::size_t unit = text.find_first_not_of("0123456789.");
+  if (unit != std::string::npos && unit > 0 && text[unit] != ' ') text.insert(unit, " ");
+  const Quantified time = parse_quantity(text, Dimension::time);
+  if (time.problem.empty() && time.value > 0) return time.value;
   throw Error(exit_code::usage, "--max-wall: '" + text + "' is no time; write 2h, 90min or 1800s");
 }
 
@@ -77,7 +75,7 @@ std::optional<int> parse(int argc, char** argv, Options& options)
     std::cerr << options.program << ": " << error.what() << "; see --help\n";
     return exit_code::usage;
   }
-  if (!wall.empty()) options.max_wall = parse_wall_time(wall);
+  if (app.count("--max-wall")) options.max_wall = parse_wall_time(wall);
   if (quiet) options.verbosity = Verbosity::quiet;
   if (verbose) options.verbosity = Verbosity::verbose;
   if (options.out.empty() && !options.check)
@@ -231,10 +229,22 @@ void load_model(const h5::File& file, Model& model, Clock& clock)
       });
 }
 
+std::vector<std::pair<std::string, std::string>> settings_with_digests(const Case& scene)
+{
+  std::vector<std::pair<std::string, std::string>> result;
+  for (const auto& [key, value] : scene.settings)
+  {
+    result.push_back({key, value});
+    if (key.starts_with("surfaces.") && key.ends_with(".file"))
+      result.push_back({key + " (sha256)", sha256_file(scene.path.parent_path() / value)});
+  }
+  return result;
+}
+
 std::vector<std::string> ground_settings(const Case& scene)
 {
   std::vector<std::string> lines;
-  for (const auto& [key, value] : scene.settings)
+  for (const auto& [key, value] : settings_with_digests(scene))
     for (const std::string_view part : {"grid.", "domain.", "surfaces.", "regions", "materials.",
                                         "static.gravity", "seismic.base", "seismic.sides"})
       if (key.starts_with(part)) lines.push_back(key + " = " + value);

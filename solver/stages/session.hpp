@@ -87,6 +87,9 @@ int run_program(int argc, char** argv, const std::string& name, int (*stage)(Ses
 /// Loads clock and domains of a checkpoint of the same stage.
 void load_model(const h5::File& file, Model& model, Clock& clock);
 
+/// The case's settings, each named file followed by the digest of what it holds.
+std::vector<std::pair<std::string, std::string>> settings_with_digests(const Case& scene);
+
 /// The case's keys that shape the ground itself, as `key = value` lines: what static and seismic stage must
 /// share.
 std::vector<std::string> ground_settings(const Case& scene);

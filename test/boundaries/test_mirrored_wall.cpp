@@ -89,8 +89,8 @@ Nodes with_images(const Domain& domain, const std::vector<Wall>& walls)
 Domain random_body(int to_x, int to_y)
 {
   const double h = 0.7, x = -3 * h, y = 5 * h, width = 9 * h, height = 7 * h;
-  Domain domain = make_domain({{elastic(), {to_x > 0 ? x : x - width, to_y > 0 ? y : y - height, width, height}, h / 2}},
-                              h, 0.49, 71);
+  const Rectangle place{to_x > 0 ? x : x - width, to_y > 0 ? y : y - height, width, height};
+  Domain domain = make_domain({{elastic(), place, h / 2}}, h, 0.49, 71);
   random_velocities(domain, 2, 72);
   random_affine(domain, 3, 73);
   random_stress(domain, 1e5, 74);

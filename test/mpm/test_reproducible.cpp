@@ -10,8 +10,8 @@ namespace
 /// Two blocks of different materials that hit each other, over several grid blocks.
 Domain collision()
 {
-  Domain domain = make_domain({{elastic(2e7, 0.25), {-9.3, -3.2, 9, 11}}, {von_mises(2e4, 5e3, 0.1, 1e7), {1.2, -2.7, 8, 9}}},
-                              1, 0.4, 41);
+  const Body left{elastic(2e7, 0.25), {-9.3, -3.2, 9, 11}}, right{von_mises(2e4, 5e3, 0.1, 1e7), {1.2, -2.7, 8, 9}};
+  Domain domain = make_domain({left, right}, 1, 0.4, 41);
   random_velocities(domain, 0.5, 42);
   random_affine(domain, 0.5, 43);
   random_stress(domain, 1e3, 44);
@@ -139,7 +139,8 @@ TEST_CASE("Sorting keeps every particle whole and its place by id", "[mpm]")
   // A field that can be told from the id, and a history variable too.
   for (int k = 0; k < p.size(); ++k) p.reference_x[k] = static_cast<double>(p.id[k]);
   std::vector<double>& strain = domain.materials[1].state[0];
-  for (std::size_t k = 0; k < strain.size(); ++k) strain[k] = 1 + static_cast<double>(p.id[domain.material_begin[1] + k]);
+  for (std::size_t k = 0; k < strain.size(); ++k)
+    strain[k] = 1 + static_cast<double>(p.id[domain.material_begin[1] + k]);
   domain.plastic = false;
   run(domain, 100, step_size());
   sort_particles(domain);
