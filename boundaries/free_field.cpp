@@ -56,15 +56,16 @@ int FreeFieldColumn::row_near(double y) const
   return nearest;
 }
 
-std::vector<std::array<double, 3>> FreeFieldColumn::stress_of_rows() const
+std::vector<Eigen::Matrix2d> FreeFieldColumn::stress_of_rows() const
 {
   const Particles& p = domain->particles;
-  std::vector<std::array<double, 3>> result;
+  std::vector<Eigen::Matrix2d> result;
   for (const std::int64_t id : ids_)
   {
     const int k = domain->place[id];
-    result.push_back(
-        {p.volume[k] * p.stress_xx[k], p.volume[k] * p.stress_yy[k], p.volume[k] * p.stress_xy[k]});
+    Eigen::Matrix2d sigma;
+    sigma << p.stress_xx[k], p.stress_xy[k], p.stress_xy[k], p.stress_yy[k];
+    result.push_back(p.volume[k] * sigma);
   }
   return result;
 }
@@ -80,9 +81,9 @@ void FreeFieldSide::begin(const Domain& domain, double position, double bottom, 
   {
     const int k = domain.place[id];
     if (std::fabs(p.x[k] - position) > strip * domain.grid.spacing) continue;
-    Image ghost{};
+    Image ghost;
     ghost.parent = id;
-    ghost.offset_x = 2 * (position - p.x[k]);
+    ghost.offset.x() = 2 * (position - p.x[k]);
     const int row = column_->row_near(p.reference_y[k]);
     ghost.mass = column_->domain->particles.mass[column_->particle_of_row(row)];
     ghosts_.push_back(ghost);
@@ -90,7 +91,7 @@ void FreeFieldSide::begin(const Domain& domain, double position, double bottom, 
     for (Face face : base)
       if (face.particle == id)
       {
-        face.offset_x += ghost.offset_x;
+        face.offset_x += ghost.offset.x();
         ghost_base_.push_back(face);
       }
   }
@@ -119,12 +120,9 @@ void FreeFieldSide::add_forces(Domain& domain, double dt)
                      });
   if (!column_) return;
   add_ghost_base(domain, dt);
-  std::vector<std::array<double, 3>> stress(ghosts_.size());
+  std::vector<Eigen::Matrix2d> stress(ghosts_.size());
   for (std::size_t k = 0; k < ghosts_.size(); ++k)
-  {
-    const auto row = ghost_row_[k];
-    for (int c = 0; c < 3; ++c) stress[k][c] = column_->stress[row][c] - static_stress_[row][c];
-  }
+    stress[k] = column_->stress[ghost_row_[k]] - static_stress_[ghost_row_[k]]; // eq. (6)
   blocks_.add_forces(domain, ghosts_, {stress, column_->acceleration, column_->first_row});
 }
 
@@ -165,9 +163,10 @@ void FreeFieldSide::visit_state(StateVisitor& visitor)
   visit_images(visitor, "ghost_", ghosts_);
   visitor.integers("ghost_row", ghost_row_);
   visit_faces(visitor, "ghost_base_", ghost_base_);
-  RecordVisitor<std::array<double, 3>> rows(visitor, "static_stress_volume_", static_stress_);
-  rows.each("xx", "N m/m", [](auto& stress) -> double& { return stress[0]; });
-  rows.each("yy", "N m/m", [](auto& stress) -> double& { return stress[1]; });
-  rows.each("xy", "N m/m", [](auto& stress) -> double& { return stress[2]; });
+  RecordVisitor<Eigen::Matrix2d> rows(visitor, "static_stress_volume_", static_stress_);
+  rows.each("xx", "N m/m", [](auto& stress) -> double& { return stress(0, 0); });
+  rows.each("yy", "N m/m", [](auto& stress) -> double& { return stress(1, 1); });
+  rows.each("xy", "N m/m", [](auto& stress) -> double& { return stress(0, 1); });
+  for (Eigen::Matrix2d& stress : static_stress_) stress(1, 0) = stress(0, 1);
 }
 } // namespace mpm

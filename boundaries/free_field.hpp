@@ -18,11 +18,11 @@ public:
   /// Row of particles whose reference height is nearest to y (m).
   int row_near(double y) const;
   int rows() const { return static_cast<int>(ids_.size()); }
-  /// V sigma (xx, yy, xy; N m per m) of the rows as they are now.
-  std::vector<std::array<double, 3>> stress_of_rows() const;
+  /// V sigma (N m per m) of the rows as they are now.
+  std::vector<Eigen::Matrix2d> stress_of_rows() const;
 
   std::unique_ptr<Domain> domain;
-  std::vector<std::array<double, 3>> stress;   ///< of the rows, at the step's start
+  std::vector<Eigen::Matrix2d> stress;         ///< of the rows, at the step's start
   std::vector<std::array<double, 2>> velocity; ///< of the grid rows, mean of the step's start and end, m/s
   std::vector<std::array<double, 2>> acceleration; ///< of the grid rows, m/s2
   int first_row = 0;                               ///< grid row of the first entry
@@ -69,7 +69,7 @@ private:
   std::vector<Face> ghost_base_; ///< base dashpots below the ghost rows
   std::vector<Image> ghosts_;
   std::vector<std::int64_t> ghost_row_;
-  std::vector<std::array<double, 3>> static_stress_; ///< of the column's rows at the switch
+  std::vector<Eigen::Matrix2d> static_stress_; ///< of the column's rows at the switch
   ImageBlocks blocks_;
 };
 } // namespace mpm

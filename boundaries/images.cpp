@@ -13,20 +13,16 @@ namespace
 /// 3).
 constexpr double strip = 4;
 
-/// Mirrors an image (or a particle, taken as its own image) at one more wall.
-Image mirror(const Image& original, const Wall& wall, double parent_position, double wall_position)
+/// Mirrors an image (or a particle, taken as its own image) at one more wall: X* = M X, Sigma* = S Sigma M.
+Image mirror(const Image& original, const Wall& wall, const Eigen::Vector2d& parent, double wall_position)
 {
-  const double sx = wall.image_sign_x(), sy = wall.image_sign_y();
-  const double mx = wall.normal == Direction::x ? -1 : 1, my = -mx;
+  const int normal = wall.normal == Direction::x ? 0 : 1;
+  const Eigen::DiagonalMatrix<double, 2> S(wall.image_sign_x(), wall.image_sign_y());
+  const Eigen::DiagonalMatrix<double, 2> M(normal == 0 ? -1 : 1, normal == 1 ? -1 : 1);
   Image image = original;
-  double& offset = wall.normal == Direction::x ? image.offset_x : image.offset_y;
-  offset = 2 * wall_position - 2 * parent_position - offset;
-  image.stress_xx = sx * original.stress_xx * mx;
-  image.stress_xy = sx * original.stress_xy * my;
-  image.stress_yx = sy * original.stress_yx * mx;
-  image.stress_yy = sy * original.stress_yy * my;
-  image.weight_x = sx * original.weight_x;
-  image.weight_y = sy * original.weight_y;
+  image.offset[normal] = 2 * wall_position - 2 * parent[normal] - original.offset[normal];
+  image.stress = S * original.stress * M;
+  image.weight = S * original.weight;
   return image;
 }
 
@@ -46,26 +42,20 @@ std::vector<Image> make_images(const Domain& domain, std::span<const Wall> walls
   for (int id = 0; id < p.size(); ++id)
   {
     const int k = domain.place[id];
-    const double V = p.volume[k], m = p.mass[k];
-    std::vector<Image> family{{id,
-                               0,
-                               0,
-                               V * p.stress_xx[k],
-                               V * p.stress_xy[k],
-                               V * p.stress_xy[k],
-                               V * p.stress_yy[k],
-                               m * domain.gravity_x,
-                               m * domain.gravity_y,
-                               {},
-                               0}};
+    Image self{.parent = id};
+    self.stress << p.stress_xx[k], p.stress_xy[k], p.stress_xy[k], p.stress_yy[k];
+    self.stress *= p.volume[k];
+    self.weight = p.mass[k] * Eigen::Vector2d(domain.gravity_x, domain.gravity_y);
+    std::vector<Image> family{self};
+    const Eigen::Vector2d parent(p.x[k], p.y[k]);
     for (const Wall& wall : walls)
     {
-      const double position = wall.normal == Direction::x ? p.x[k] : p.y[k];
+      const double position = parent[wall.normal == Direction::x ? 0 : 1];
       const double line = (wall.normal == Direction::x ? g.origin_x : g.origin_y) + wall.line * g.spacing;
       if (std::fabs(position - line) > strip * g.spacing) continue;
       const std::size_t known = family.size();
       for (std::size_t member = 0; member < known; ++member)
-        family.push_back(mirror(family[member], wall, position, line));
+        family.push_back(mirror(family[member], wall, parent, line));
     }
     result.insert(result.end(), family.begin() + 1, family.end());
   }
@@ -80,8 +70,8 @@ void place_images(const Domain& domain, std::vector<Image>& images)
   for (Image& image : images)
   {
     const int parent = domain.place[image.parent];
-    const int i = cell(domain.particles.x[parent] + image.offset_x, g.origin_x);
-    const int j = cell(domain.particles.y[parent] + image.offset_y, g.origin_y);
+    const int i = cell(domain.particles.x[parent] + image.offset.x(), g.origin_x);
+    const int j = cell(domain.particles.y[parent] + image.offset.y(), g.origin_y);
     image.block = {g.wrapped ? 0 : block_of(i), block_of(j)};
   }
 }
@@ -112,38 +102,25 @@ std::array<double, 2> ImageBlocks::scatter(Domain& domain, const ImageHome& home
 {
   Tile force_x, force_y, mass;
   for (Tile* tile : {&force_x, &force_y, &mass}) tile->value.fill(0);
-  std::array<double, chunk_size> x, y;
-  ChunkWeights w;
+  const TileStencils stencils(domain.grid, home.block);
   const Particles& p = domain.particles;
-  for (int begin = home.begin; begin < home.end; begin += chunk_size)
+  for (int k = home.begin; k < home.end; ++k)
   {
-    const int count = std::min(chunk_size, home.end - begin);
-    for (int k = 0; k < count; ++k)
+    const Image& image = images[order_[k]];
+    const int parent = domain.place[image.parent];
+    const auto x = stencils.x(p.x[parent] + image.offset.x()), y = stencils.y(p.y[parent] + image.offset.y());
+    Eigen::Matrix2d stress = image.stress;
+    if (!extra.stress.empty()) stress += extra.stress[order_[k]];
+    const int first = TileStencils::first_node(x, y);
+    const Row fx_w = image.weight.x() * x.weight - stress(0, 0) * x.slope, fx_dw = -stress(0, 1) * x.weight;
+    const Row fy_w = image.weight.y() * x.weight - stress(1, 0) * x.slope, fy_dw = -stress(1, 1) * x.weight;
+    for (int j = 0; j < 4; ++j)
     {
-      const Image& image = images[order_[begin + k]];
-      const int parent = domain.place[image.parent];
-      x[k] = p.x[parent] + image.offset_x;
-      y[k] = p.y[parent] + image.offset_y;
-    }
-    find_weights(domain.grid, home.block, x.data(), y.data(), count, w);
-    for (int k = 0; k < count; ++k)
-    {
-      const Image& image = images[order_[begin + k]];
-      std::array<double, 3> more{};
-      if (!extra.stress.empty()) more = extra.stress[order_[begin + k]];
-      const double xx = image.stress_xx + more[0], yy = image.stress_yy + more[1];
-      const double xy = image.stress_xy + more[2], yx = image.stress_yx + more[2];
-      const Row wx = load_row(&w.x[4 * k]), dwx = load_row(&w.slope_x[4 * k]);
-      for (int j = 0; j < 4; ++j)
-      {
-        const double wy = w.y[4 * k + j], dwy = w.slope_y[4 * k + j];
-        const int node = w.tile[k] + j * tile_stride;
-        const auto add = [node](Tile& tile, const Row& row)
-        { store_row(&tile.value[node], load_row(&tile.value[node]) + row); };
-        add(force_x, wy * (image.weight_x * wx - xx * dwx) - (dwy * xy) * wx);
-        add(force_y, wy * (image.weight_y * wx - yx * dwx) - (dwy * yy) * wx);
-        add(mass, (wy * image.mass) * wx);
-      }
+      const auto add = [node = first + j * tile_stride](Tile& tile, const Row& row)
+      { store_row(&tile.value[node], load_row(&tile.value[node]) + row); };
+      add(force_x, y.weight[j] * fx_w + y.slope[j] * fx_dw);
+      add(force_y, y.weight[j] * fy_w + y.slope[j] * fy_dw);
+      add(mass, (y.weight[j] * image.mass) * x.weight);
     }
   }
   Grid& g = domain.grid;
@@ -225,14 +202,14 @@ void visit_images(StateVisitor& visitor, std::string prefix, std::vector<Image>&
       "block_x", [](Image & image) -> auto& { return image.block.x; });
   list.each_integer(
       "block_y", [](Image & image) -> auto& { return image.block.y; });
-  list.member("offset_x", "m", &Image::offset_x);
-  list.member("offset_y", "m", &Image::offset_y);
-  list.member("stress_xx", "N m/m", &Image::stress_xx);
-  list.member("stress_xy", "N m/m", &Image::stress_xy);
-  list.member("stress_yx", "N m/m", &Image::stress_yx);
-  list.member("stress_yy", "N m/m", &Image::stress_yy);
-  list.member("weight_x", "N/m", &Image::weight_x);
-  list.member("weight_y", "N/m", &Image::weight_y);
+  list.each("offset_x", "m", [](Image& image) -> double& { return image.offset.x(); });
+  list.each("offset_y", "m", [](Image& image) -> double& { return image.offset.y(); });
+  list.each("stress_xx", "N m/m", [](Image& image) -> double& { return image.stress(0, 0); });
+  list.each("stress_xy", "N m/m", [](Image& image) -> double& { return image.stress(0, 1); });
+  list.each("stress_yx", "N m/m", [](Image& image) -> double& { return image.stress(1, 0); });
+  list.each("stress_yy", "N m/m", [](Image& image) -> double& { return image.stress(1, 1); });
+  list.each("weight_x", "N/m", [](Image& image) -> double& { return image.weight.x(); });
+  list.each("weight_y", "N/m", [](Image& image) -> double& { return image.weight.y(); });
   list.member("mass", "kg/m", &Image::mass);
 }
 } // namespace mpm

@@ -2,6 +2,8 @@
 
 #include "boundaries/mirrored_wall.hpp"
 
+#include <Eigen/Core>
+
 #include <array>
 #include <span>
 
@@ -11,13 +13,13 @@ namespace mpm
 /// that the mirrored particle had, so that the wall's reaction stays (METHODS section 3, option d).
 struct Image
 {
-  std::int64_t parent;       ///< particle id
-  double offset_x, offset_y; ///< from the parent, m
-  double stress_xx, stress_xy, stress_yx,
-      stress_yy;             ///< S sigma M V, N m per m; not symmetric behind a no-slip wall
-  double weight_x, weight_y; ///< S m g, N per m
-  BlockIndex block{};        ///< where it stood at the last sort
-  double mass = 0;           ///< of the ghost row that it stands for, kg per m; 0 when it has no dynamics
+  std::int64_t parent = 0;                          ///< particle id
+  Eigen::Vector2d offset = Eigen::Vector2d::Zero(); ///< from the parent, m
+  Eigen::Matrix2d stress =
+      Eigen::Matrix2d::Zero(); ///< S sigma M V, N m per m; not symmetric behind a no-slip wall
+  Eigen::Vector2d weight = Eigen::Vector2d::Zero(); ///< S m g, N per m
+  BlockIndex block{};                               ///< where it stood at the last sort
+  double mass = 0; ///< of the ghost row that it stands for, kg per m; 0 when it has no dynamics
 };
 
 /// Images of all particles within four cells of the walls, with the corners' products.
@@ -38,8 +40,8 @@ public:
 
   struct Extra
   {
-    /// Symmetric stress tensors times volume (xx, yy, xy in N m per m) to be added, by image; empty for none.
-    std::span<const std::array<double, 3>> stress;
+    /// Stress tensors times volume (N m per m) to be added, by image; empty for none.
+    std::span<const Eigen::Matrix2d> stress;
     /// Acceleration of the ghost's mass by grid row, m/s2: acceleration[row - first_row]; empty for none.
     std::span<const std::array<double, 2>> acceleration;
     int first_row = 0;

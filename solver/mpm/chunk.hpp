@@ -9,43 +9,46 @@
 
 namespace mpm
 {
-/// Spline weights of up to 64 particles, four nodes each, and the place of their first node in the block's
-/// tile.
-struct ChunkWeights
+/// Where a block's particles stand in its tile: turns positions (m) into stencils, one after the other.
+class TileStencils
 {
-  alignas(64) std::array<double, 4 * chunk_size> x, y, slope_x, slope_y, offset_x, offset_y;
-  std::array<int, chunk_size> tile;
-};
-
-/// Weights of particles at `x`, `y` (m) that belong to `block`.
-inline void find_weights(const Grid& grid, BlockIndex block, const double* x, const double* y, int count,
-                         ChunkWeights& w)
-{
-  const double h = grid.spacing, inverse = 1 / h;
-  const double from_x = grid.origin_x + h * block_cells * block.x,
-               from_y = grid.origin_y + h * block_cells * block.y;
-  const auto direction = [=](double position, double from, double* value, double* slope, double* offset)
+public:
+  TileStencils(const Grid& grid, BlockIndex block)
+      : spacing_(grid.spacing), inverse_(1 / grid.spacing),
+        from_x_(grid.origin_x + grid.spacing * block_cells * block.x),
+        from_y_(grid.origin_y + grid.spacing * block_cells * block.y)
   {
-    const double local = (position - from) * inverse;
-    const double cell = std::floor(local);
-    const double f = local - cell;
-    cubic_weights(f, value[0], value[1], value[2], value[3]);
-    cubic_slopes(f, slope[0], slope[1], slope[2], slope[3]);
-    for (int k = 0; k < 4; ++k)
-    {
-      slope[k] *= inverse;
-      offset[k] = (k - 1 - f) * h;
-    }
-    return static_cast<int>(cell) - 1 + tile_margin;
-  };
-#pragma GCC ivdep
-  for (int p = 0; p < count; ++p)
-  {
-    const int column = direction(x[p], from_x, &w.x[4 * p], &w.slope_x[4 * p], &w.offset_x[4 * p]);
-    const int row = direction(y[p], from_y, &w.y[4 * p], &w.slope_y[4 * p], &w.offset_y[4 * p]);
-    w.tile[p] = row * tile_stride + column;
   }
-}
+  /// The four nodes of a direction at once; `cell` counts from the block's first.
+  struct Direction
+  {
+    int cell;
+    Row weight, slope, offset; ///< N, dN/dx in 1/m, x_i - x in m
+  };
+  Direction x(double position) const { return direction(position - from_x_); }
+  Direction y(double position) const { return direction(position - from_y_); }
+  /// Place of the first node of a stencil in the tile.
+  static int first_node(const Direction& x, const Direction& y)
+  {
+    return (y.cell - 1 + tile_margin) * tile_stride + x.cell - 1 + tile_margin;
+  }
+
+private:
+  Direction direction(double distance) const
+  {
+    const double local = distance * inverse_, cell = std::floor(local);
+    const double f = local - cell, g = 1 - f;
+    // The outer splines are cubes, so that small weights keep their relative accuracy; the third is what the
+    // others leave of one, so that no momentum is lost on average.
+    const Row t{g, f, g, f};
+    Row weight = Row{0, 2.0 / 3, 0, 0} + t * t * (t * Row{1.0 / 6, 0.5, 0, 1.0 / 6} - Row{0, 1, 0, 0});
+    weight[2] = (1 - weight[1]) - (weight[0] + weight[3]);
+    const Row slope = inverse_ * t * (t * Row{-0.5, 1.5, -1.5, 0.5} + Row{0, -2, 2, 0});
+    const Row offset = spacing_ * (Row{-1, 0, 1, 2} - f);
+    return {static_cast<int>(cell), weight, slope, offset};
+  }
+  double spacing_, inverse_, from_x_, from_y_;
+};
 
 /// Calls f(material, begin, count) for the chunks of a home block, in the order in which they are summed.
 template <class Function>

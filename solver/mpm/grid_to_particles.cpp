@@ -15,7 +15,7 @@ struct Velocities
 /// v = sum w v, C = D^-1 sum w v (x_i - x)^T (eq. 3) and L = sum v grad w; moves the particles. Returns the
 /// greatest displacement component in cells, infinity when a gradient is
 /// not a number or deforms the material wholly within the step.
-double gather(Particles& p, int begin, int count, const ChunkWeights& w, const Velocities& velocities,
+double gather(Particles& p, int begin, int count, const TileStencils& stencils, const Velocities& velocities,
               double spacing, double dt, VelocityGradients& L)
 {
   const double inverse_D = 3 / (spacing * spacing);
@@ -25,13 +25,14 @@ double gather(Particles& p, int begin, int count, const ChunkWeights& w, const V
   for (int k = 0; k < count; ++k)
   {
     const int q = begin + k;
-    const Row wx = load_row(&w.x[4 * k]), dwx = load_row(&w.slope_x[4 * k]);
-    const Row wx_dx = wx * load_row(&w.offset_x[4 * k]);
+    const auto x = stencils.x(p.x[q]), y = stencils.y(p.y[q]);
+    const int first = TileStencils::first_node(x, y);
+    const Row wx = x.weight, dwx = x.slope, wx_dx = x.weight * x.offset, y_moment = y.weight * y.offset;
     Row ux{}, ux_dy{}, ux_dw{}, uy{}, uy_dy{}, uy_dw{};
     for (int j = 0; j < 4; ++j)
     {
-      const double wy = w.y[4 * k + j], dwy = w.slope_y[4 * k + j], wdy = wy * w.offset_y[4 * k + j];
-      const int node = w.tile[k] + j * tile_stride;
+      const double wy = y.weight[j], dwy = y.slope[j], wdy = y_moment[j];
+      const int node = first + j * tile_stride;
       const Row vx = load_row(&velocities.x.value[node]), vy = load_row(&velocities.y.value[node]);
       ux += wy * vx;
       ux_dy += wdy * vx;
@@ -40,17 +41,20 @@ double gather(Particles& p, int begin, int count, const ChunkWeights& w, const V
       uy_dy += wdy * vy;
       uy_dw += dwy * vy;
     }
-    const double vx = sum(wx * ux), vy = sum(wx * uy);
+    const Row velocity_and_gradient = sums(wx * ux, wx * uy, dwx * ux, dwx * uy);
+    const Row affine = inverse_D * sums(wx_dx * ux, wx * ux_dy, wx_dx * uy, wx * uy_dy);
+    const Row gradient_y = sums(wx * ux_dw, wx * uy_dw, Row{}, Row{});
+    const double vx = velocity_and_gradient[0], vy = velocity_and_gradient[1];
     p.velocity_x[q] = vx;
     p.velocity_y[q] = vy;
-    p.affine_xx[q] = inverse_D * sum(wx_dx * ux);
-    p.affine_xy[q] = inverse_D * sum(wx * ux_dy);
-    p.affine_yx[q] = inverse_D * sum(wx_dx * uy);
-    p.affine_yy[q] = inverse_D * sum(wx * uy_dy);
-    L.xx[k] = sum(dwx * ux);
-    L.xy[k] = sum(wx * ux_dw);
-    L.yx[k] = sum(dwx * uy);
-    L.yy[k] = sum(wx * uy_dw);
+    p.affine_xx[q] = affine[0];
+    p.affine_xy[q] = affine[1];
+    p.affine_yx[q] = affine[2];
+    p.affine_yy[q] = affine[3];
+    L.xx[k] = velocity_and_gradient[2];
+    L.yx[k] = velocity_and_gradient[3];
+    L.xy[k] = gradient_y[0];
+    L.yy[k] = gradient_y[1];
     p.x[q] += dt * vx;
     p.y[q] += dt * vy;
     const double move = std::max(std::fabs(vx), std::fabs(vy));
@@ -67,16 +71,15 @@ double update_home(Domain& domain, const Home& home, double dt)
   Velocities velocities;
   read_tile(grid, home.around, grid.velocity_x, velocities.x);
   read_tile(grid, home.around, grid.velocity_y, velocities.y);
-  ChunkWeights weights;
+  const TileStencils stencils(grid, home.block);
   VelocityGradients gradients;
   Particles& p = domain.particles;
   double greatest = 0;
   for_each_chunk(home,
                  [&](int material, int begin, int count)
                  {
-                   find_weights(grid, home.block, &p.x[begin], &p.y[begin], count, weights);
                    const double move =
-                       gather(p, begin, count, weights, velocities, grid.spacing, dt, gradients);
+                       gather(p, begin, count, stencils, velocities, grid.spacing, dt, gradients);
                    update_particles(domain, material, begin, count, gradients, dt);
                    greatest = std::max(greatest, move);
                  });

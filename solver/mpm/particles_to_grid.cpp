@@ -9,34 +9,34 @@ struct Tiles
   Tile mass, momentum_x, momentum_y, force_x, force_y;
 };
 
-inline void add(double* to, const Row& row)
+inline void add(Tile& tile, int node, const Row& row)
 {
-  store_row(to, load_row(to) + row);
+  store_row(&tile.value[node], load_row(&tile.value[node]) + row);
 }
 
 /// Momentum by eq. (2), internal force f = -V sigma grad w.
-void scatter(const Particles& p, int begin, int count, const ChunkWeights& w, Tiles& tiles)
+void scatter(const Particles& p, const Range& range, const TileStencils& stencils, Tiles& tiles)
 {
-  for (int k = 0; k < count; ++k)
+  for (int q = range.begin; q < range.end; ++q)
   {
-    const int q = begin + k;
-    const Row wx = load_row(&w.x[4 * k]), dwx = load_row(&w.slope_x[4 * k]),
-              dx = load_row(&w.offset_x[4 * k]);
+    const auto x = stencils.x(p.x[q]), y = stencils.y(p.y[q]);
+    const int first = TileStencils::first_node(x, y);
     const double V = p.volume[q];
-    const Row m = p.mass[q] * wx;
-    const Row ux = m * (p.velocity_x[q] + p.affine_xx[q] * dx), ux_dy = m * p.affine_xy[q];
-    const Row uy = m * (p.velocity_y[q] + p.affine_yx[q] * dx), uy_dy = m * p.affine_yy[q];
-    const Row fx_w = (-V * p.stress_xx[q]) * dwx, fx_dw = (-V * p.stress_xy[q]) * wx;
-    const Row fy_w = (-V * p.stress_xy[q]) * dwx, fy_dw = (-V * p.stress_yy[q]) * wx;
+    const Row m = p.mass[q] * x.weight;
+    const Row ux = m * (p.velocity_x[q] + p.affine_xx[q] * x.offset), ux_dy = m * p.affine_xy[q];
+    const Row uy = m * (p.velocity_y[q] + p.affine_yx[q] * x.offset), uy_dy = m * p.affine_yy[q];
+    const Row fx_w = (-V * p.stress_xx[q]) * x.slope, fx_dw = (-V * p.stress_xy[q]) * x.weight;
+    const Row fy_w = (-V * p.stress_xy[q]) * x.slope, fy_dw = (-V * p.stress_yy[q]) * x.weight;
+    const Row y_moment = y.weight * y.offset;
     for (int j = 0; j < 4; ++j)
     {
-      const double wy = w.y[4 * k + j], dwy = w.slope_y[4 * k + j], wdy = wy * w.offset_y[4 * k + j];
-      const int node = w.tile[k] + j * tile_stride;
-      add(&tiles.mass.value[node], wy * m);
-      add(&tiles.momentum_x.value[node], wy * ux + wdy * ux_dy);
-      add(&tiles.momentum_y.value[node], wy * uy + wdy * uy_dy);
-      add(&tiles.force_x.value[node], wy * fx_w + dwy * fx_dw);
-      add(&tiles.force_y.value[node], wy * fy_w + dwy * fy_dw);
+      const double wy = y.weight[j], dwy = y.slope[j], wdy = y_moment[j];
+      const int node = first + j * tile_stride;
+      add(tiles.mass, node, wy * m);
+      add(tiles.momentum_x, node, wy * ux + wdy * ux_dy);
+      add(tiles.momentum_y, node, wy * uy + wdy * uy_dy);
+      add(tiles.force_x, node, wy * fx_w + dwy * fx_dw);
+      add(tiles.force_y, node, wy * fy_w + dwy * fy_dw);
     }
   }
 }
@@ -46,14 +46,8 @@ void scatter_home(Domain& domain, const Home& home)
   Tiles tiles;
   for (Tile* tile : {&tiles.mass, &tiles.momentum_x, &tiles.momentum_y, &tiles.force_x, &tiles.force_y})
     tile->value.fill(0);
-  ChunkWeights weights;
-  const Particles& p = domain.particles;
-  for_each_chunk(home,
-                 [&](int, int begin, int count)
-                 {
-                   find_weights(domain.grid, home.block, &p.x[begin], &p.y[begin], count, weights);
-                   scatter(p, begin, count, weights, tiles);
-                 });
+  const TileStencils stencils(domain.grid, home.block);
+  for (const Range& range : home.ranges) scatter(domain.particles, range, stencils, tiles);
   for (int k = 0; k < tile_size; ++k)
   {
     tiles.force_x.value[k] += domain.gravity_x * tiles.mass.value[k];

@@ -19,8 +19,11 @@ inline void store_row(double* to, const Row& row)
   std::memcpy(to, &row, sizeof row);
 }
 
-inline double sum(const Row& row)
+/// The sums of the lanes of four rows, as the lanes of one.
+inline Row sums(const Row& a, const Row& b, const Row& c, const Row& d)
 {
-  return (row[0] + row[2]) + (row[1] + row[3]);
+  const Row ab = __builtin_shufflevector(a, b, 0, 4, 2, 6) + __builtin_shufflevector(a, b, 1, 5, 3, 7);
+  const Row cd = __builtin_shufflevector(c, d, 0, 4, 2, 6) + __builtin_shufflevector(c, d, 1, 5, 3, 7);
+  return __builtin_shufflevector(ab, cd, 0, 1, 4, 5) + __builtin_shufflevector(ab, cd, 2, 3, 6, 7);
 }
 } // namespace mpm

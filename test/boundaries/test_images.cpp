@@ -8,7 +8,8 @@ using namespace scenes;
 
 namespace
 {
-/// A random stressed block that fills the corners between a sticking base and two slipping sides (or sticking ones).
+/// A random stressed block that fills the corners between a sticking base and two slipping sides (or sticking
+/// ones).
 Domain random_block()
 {
   const double h = 0.7;
@@ -19,11 +20,13 @@ Domain random_block()
 
 std::vector<Wall> walls(bool base_slips, bool sides_slip)
 {
-  return {{Direction::y, 5, 1, base_slips}, {Direction::x, -3, 1, sides_slip}, {Direction::x, 11, -1, sides_slip}};
+  return {{Direction::y, 5, 1, base_slips},
+          {Direction::x, -3, 1, sides_slip},
+          {Direction::x, 11, -1, sides_slip}};
 }
 
-/// Greatest difference of the forces at nodes with real mass between folded walls and the images made of them,
-/// relative to the greatest force.
+/// Greatest difference of the forces at nodes with real mass between folded walls and the images made of
+/// them, relative to the greatest force.
 double difference(const std::vector<Wall>& walls, double gravity_x, double gravity_y)
 {
   const Threads one(1);
@@ -98,24 +101,25 @@ TEST_CASE("An image stands opposite its parent and carries the mirrored stress a
   const double V = p.volume[0], m = p.mass[0];
   const std::vector<Wall> sticks{{Direction::y, 5, 1, false}}, slips{{Direction::y, 5, 1, true}};
   const Image stuck = make_images(domain, sticks).at(0), slid = make_images(domain, slips).at(0);
-  CHECK(p.y[0] + stuck.offset_y == Approx(2.75).epsilon(1e-14));
-  CHECK(stuck.offset_x == 0);
+  CHECK(p.y[0] + stuck.offset.y() == Approx(2.75).epsilon(1e-14));
+  CHECK(stuck.offset.x() == 0);
   // S = -1, M = diag(1, -1): [-xx, xy; -xy, yy] (METHODS section 13)
-  CHECK(stuck.stress_xx == -3 * V);
-  CHECK(stuck.stress_xy == 7 * V);
-  CHECK(stuck.stress_yx == -7 * V);
-  CHECK(stuck.stress_yy == 5 * V);
-  CHECK(stuck.weight_x == -2 * m);
-  CHECK(stuck.weight_y == 9 * m);
-  CHECK(slid.stress_xx == 3 * V);
-  CHECK(slid.stress_xy == -7 * V);
-  CHECK(slid.stress_yx == -7 * V);
-  CHECK(slid.stress_yy == 5 * V);
-  CHECK(slid.weight_x == 2 * m);
-  CHECK(slid.weight_y == 9 * m);
+  CHECK(stuck.stress(0, 0) == -3 * V);
+  CHECK(stuck.stress(0, 1) == 7 * V);
+  CHECK(stuck.stress(1, 0) == -7 * V);
+  CHECK(stuck.stress(1, 1) == 5 * V);
+  CHECK(stuck.weight.x() == -2 * m);
+  CHECK(stuck.weight.y() == 9 * m);
+  CHECK(slid.stress(0, 0) == 3 * V);
+  CHECK(slid.stress(0, 1) == -7 * V);
+  CHECK(slid.stress(1, 0) == -7 * V);
+  CHECK(slid.stress(1, 1) == 5 * V);
+  CHECK(slid.weight.x() == 2 * m);
+  CHECK(slid.weight.y() == 9 * m);
 }
 
-TEST_CASE("Images move with the body: their resultant stays when the body is shifted by part of a cell", "[boundaries]")
+TEST_CASE("Images move with the body: their resultant stays when the body is shifted by part of a cell",
+          "[boundaries]")
 {
   const Threads one(1);
   const std::vector<Wall> all = walls(false, true);

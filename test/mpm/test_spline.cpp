@@ -54,7 +54,8 @@ TEST_CASE("Slopes are the derivatives of the weights", "[mpm]")
     for (int k = 0; k < 4; ++k)
     {
       const double difference =
-          (weight(f - 2 * d, k) - 8 * weight(f - d, k) + 8 * weight(f + d, k) - weight(f + 2 * d, k)) / (12 * d * h);
+          (weight(f - 2 * d, k) - 8 * weight(f - d, k) + 8 * weight(f + d, k) - weight(f + 2 * d, k)) /
+          (12 * d * h);
       worst = std::max(worst, std::fabs(difference - s.slope[k]) * h);
     }
   }
@@ -73,7 +74,8 @@ TEST_CASE("A node's weight and slope are continuous when a particle crosses a gr
   }
 }
 
-TEST_CASE("Weights of a chunk are those of the spline, also of particles that drifted out of their block", "[mpm]")
+TEST_CASE("Weights of a chunk are those of the spline, also of particles that drifted out of their block",
+          "[mpm]")
 {
   Random random(13);
   Grid grid;
@@ -91,8 +93,7 @@ TEST_CASE("Weights of a chunk are those of the spline, also of particles that dr
       x[k] = grid.origin_x + grid.spacing * (block_cells * block.x + random(-0.75, block_cells + 0.75));
       y[k] = grid.origin_y + grid.spacing * (block_cells * block.y + random(-0.75, block_cells + 0.75));
     }
-    ChunkWeights w;
-    find_weights(grid, block, x.data(), y.data(), count, w);
+    const TileStencils stencils(grid, block);
     for (int k = 0; k < count; ++k)
     {
       const Stencil sx = cubic_stencil(x[k] - grid.origin_x, grid.spacing);
@@ -101,12 +102,12 @@ TEST_CASE("Weights of a chunk are those of the spline, also of particles that dr
       const int row = sy.first - block.y * block_cells + tile_margin;
       REQUIRE(column >= 0);
       REQUIRE(column + 3 < tile_nodes);
-      REQUIRE(w.tile[k] == row * tile_stride + column);
+      const auto wx = stencils.x(x[k]), wy = stencils.y(y[k]);
+      REQUIRE(TileStencils::first_node(wx, wy) == row * tile_stride + column);
       for (int i = 0; i < 4; ++i)
-        for (const double error :
-             {w.x[4 * k + i] - sx.weight[i], w.y[4 * k + i] - sy.weight[i], (w.slope_x[4 * k + i] - sx.slope[i]) * 0.7,
-              (w.slope_y[4 * k + i] - sy.slope[i]) * 0.7, (w.offset_x[4 * k + i] - sx.offset[i]) / 0.7,
-              (w.offset_y[4 * k + i] - sy.offset[i]) / 0.7})
+        for (const double error : {wx.weight[i] - sx.weight[i], wy.weight[i] - sy.weight[i],
+                                   (wx.slope[i] - sx.slope[i]) * 0.7, (wy.slope[i] - sy.slope[i]) * 0.7,
+                                   (wx.offset[i] - sx.offset[i]) / 0.7, (wy.offset[i] - sy.offset[i]) / 0.7})
           worst = std::max(worst, std::fabs(error));
     }
   }
