@@ -113,7 +113,7 @@ void Observer::place_gauges()
   {
     const double y = std::min(point.y, scene.ground_height(point.x));
     if (y < point.y)
-      session_.log.info("gauge {}: {} m above the ground, moved down to y = {:.3f} m", point.name,
+      session_.log.info("gauge {}: {:.3f} m above the ground, moved down to y = {:.3f} m", point.name,
                         point.y - y, y);
     const Particles& p = main.particles;
     int nearest = 0;

@@ -28,7 +28,10 @@ int run_static(Session& session)
   // 2. The folder: ours, finished, or to be gone on with.
   RunFolder::Identity identity{{"stage", "static"}};
   for (const auto& [key, value] : settings_with_digests(scene))
-    if (!key.starts_with("seismic.motion") && !key.starts_with("output")) identity.push_back({key, value});
+  {
+    const bool of_the_shaking = key.starts_with("seismic.motion") || key == "seismic.duration";
+    if (!of_the_shaking && !key.starts_with("output")) identity.push_back({key, value});
+  }
   session.open_folder(identity);
   if (std::filesystem::exists(*session.folder / "final.h5"))
   {
