@@ -72,15 +72,15 @@ struct Domain
   double greatest_move = 0; ///< greatest displacement component of the last step, in cells
 };
 
-/// Sizes place and material_begin, sorts the particles (with their materials' state), rebuilds blocks and
-/// grid and binds the boundaries. `material_of[id]` is only needed the first time, when the order is the
-/// caller's.
+/// Sorts the particles, with their materials' state, by block and cell; rebuilds blocks and grid and binds the
+/// boundaries.
 void sort_particles(Domain& domain);
 
 /// Rebuilds blocks, grid and bindings from the homes in place, without touching the order (after a restart).
 void rebuild(Domain& domain);
 
-/// Puts particles, in any order but grouped by material, into a domain with ids 0 .. n-1.
+/// Gives a domain its materials and makes room for counts[k] particles of material k, with ids 0 .. n-1 in that order;
+/// the caller fills their fields and sorts.
 void set_materials(Domain& domain, std::vector<Material> materials, const std::vector<int>& counts);
 
 /// Kinetic energy in J per m, with the affine part.
