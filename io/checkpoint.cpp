@@ -10,7 +10,6 @@ class Saver final : public StateVisitor
 {
 public:
   explicit Saver(h5::Group group) : group_(std::move(group)) {}
-  bool loading() const override { return false; }
   void doubles(std::string_view name, std::string_view unit, std::vector<double>& values) override
   {
     group_.write(std::string(name), std::span<const double>(values), {values.size()}, unit);
@@ -28,7 +27,6 @@ class Loader final : public StateVisitor
 {
 public:
   explicit Loader(h5::Group group) : group_(std::move(group)) {}
-  bool loading() const override { return true; }
   void doubles(std::string_view name, std::string_view, std::vector<double>& values) override
   {
     values = group_.read_doubles(std::string(name));

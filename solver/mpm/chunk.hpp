@@ -19,34 +19,16 @@ public:
         from_y_(grid.origin_y + grid.spacing * block_cells * block.y)
   {
   }
-  /// The four nodes of a direction at once; `cell` counts from the block's first.
-  struct Direction
-  {
-    int cell;
-    Row weight, slope, offset; ///< N, dN/dx in 1/m, x_i - x in m
-  };
-  Direction x(double position) const { return direction(position - from_x_); }
-  Direction y(double position) const { return direction(position - from_y_); }
+  /// Stencils of a direction; nodes count from the block's first.
+  Stencil x(double position) const { return cubic_stencil(position - from_x_, spacing_, inverse_); }
+  Stencil y(double position) const { return cubic_stencil(position - from_y_, spacing_, inverse_); }
   /// Place of the first node of a stencil in the tile.
-  static int first_node(const Direction& x, const Direction& y)
+  static int first_node(const Stencil& x, const Stencil& y)
   {
-    return (y.cell - 1 + tile_margin) * tile_stride + x.cell - 1 + tile_margin;
+    return (y.first + tile_margin) * tile_stride + x.first + tile_margin;
   }
 
 private:
-  Direction direction(double distance) const
-  {
-    const double local = distance * inverse_, cell = std::floor(local);
-    const double f = local - cell, g = 1 - f;
-    // The outer splines are cubes, so that small weights keep their relative accuracy; the third is what the
-    // others leave of one, so that no momentum is lost on average.
-    const Row t{g, f, g, f};
-    Row weight = Row{0, 2.0 / 3, 0, 0} + t * t * (t * Row{1.0 / 6, 0.5, 0, 1.0 / 6} - Row{0, 1, 0, 0});
-    weight[2] = (1 - weight[1]) - (weight[0] + weight[3]);
-    const Row slope = inverse_ * t * (t * Row{-0.5, 1.5, -1.5, 0.5} + Row{0, -2, 2, 0});
-    const Row offset = spacing_ * (Row{-1, 0, 1, 2} - f);
-    return {static_cast<int>(cell), weight, slope, offset};
-  }
   double spacing_, inverse_, from_x_, from_y_;
 };
 

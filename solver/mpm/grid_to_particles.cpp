@@ -13,8 +13,8 @@ struct Velocities
 };
 
 /// v = sum w v, C = D^-1 sum w v (x_i - x)^T (eq. 3) and L = sum v grad w; moves the particles. Returns the
-/// greatest displacement component in cells, infinity when a gradient is
-/// not a number or deforms the material wholly within the step.
+/// greatest displacement component in cells, infinity when a gradient is not a number or deforms the material
+/// wholly within the step.
 double gather(Particles& p, int begin, int count, const TileStencils& stencils, const Velocities& velocities,
               double spacing, double dt, VelocityGradients& L)
 {

@@ -12,7 +12,6 @@ namespace mpm
 struct StateVisitor
 {
   virtual ~StateVisitor() = default;
-  virtual bool loading() const = 0;
   virtual void doubles(std::string_view name, std::string_view unit, std::vector<double>& values) = 0;
   virtual void integers(std::string_view name, std::vector<std::int64_t>& values) = 0;
 };
