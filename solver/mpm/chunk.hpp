@@ -14,22 +14,35 @@ class TileStencils
 {
 public:
   TileStencils(const Grid& grid, BlockIndex block)
-      : spacing_(grid.spacing), inverse_(1 / grid.spacing),
-        from_x_(grid.origin_x + grid.spacing * block_cells * block.x),
+      : spacing_(grid.spacing), from_x_(grid.origin_x + grid.spacing * block_cells * block.x),
         from_y_(grid.origin_y + grid.spacing * block_cells * block.y)
   {
   }
   /// Stencils of a direction; nodes count from the block's first.
-  Stencil x(double position) const { return cubic_stencil(position - from_x_, spacing_, inverse_); }
-  Stencil y(double position) const { return cubic_stencil(position - from_y_, spacing_, inverse_); }
+  Stencil x(double position) const { return cubic_stencil(position - from_x_, spacing_); }
+  Stencil y(double position) const { return cubic_stencil(position - from_y_, spacing_); }
   /// Place of the first node of a stencil in the tile.
-  static int first_node(const Stencil& x, const Stencil& y)
-  {
-    return (y.first + tile_margin) * tile_stride + x.first + tile_margin;
-  }
+  static int first_node(const Stencil& x, const Stencil& y) { return place(x.first, y.first); }
+  static int place(int i, int j) { return (j + tile_margin) * tile_stride + i + tile_margin; }
+
+  double spacing() const { return spacing_; }
+  double from_x() const { return from_x_; }
+  double from_y() const { return from_y_; }
 
 private:
-  double spacing_, inverse_, from_x_, from_y_;
+  double spacing_, from_x_, from_y_;
+};
+
+/// Stencils of a chunk of particles: along x by particle, as a row of nodes wants them; along y by node, as
+/// broadcasts want them. Moments are weight times offset x_i - x in m.
+struct ChunkStencils
+{
+  alignas(64) double x_weight[chunk_size + 1][4], x_slope[chunk_size + 1][4], x_moment[chunk_size + 1][4];
+  alignas(64) double y_weight[4][chunk_size], y_slope[4][chunk_size], y_moment[4][chunk_size];
+  alignas(64) int node[chunk_size]; ///< first node in the tile
+
+  /// Fills the stencils of `count` particles of a tile.
+  void find(const TileStencils& tile, const double* __restrict x, const double* __restrict y, int count);
 };
 
 /// Calls f(material, begin, count) for the chunks of a home block, in the order in which they are summed.

@@ -72,15 +72,15 @@ struct Domain
   double greatest_move = 0; ///< greatest displacement component of the last step, in cells
 };
 
-/// Sorts the particles, with their materials' state, by block and cell; rebuilds blocks and grid and binds the
-/// boundaries.
+/// Sorts the particles, with their materials' state, by block and cell; rebuilds blocks and grid and binds
+/// the boundaries.
 void sort_particles(Domain& domain);
 
 /// Rebuilds blocks, grid and bindings from the homes in place, without touching the order (after a restart).
 void rebuild(Domain& domain);
 
-/// Gives a domain its materials and makes room for counts[k] particles of material k, with ids 0 .. n-1 in that order;
-/// the caller fills their fields and sorts.
+/// Gives a domain its materials and makes room for counts[k] particles of material k, with ids 0 .. n-1 in
+/// that order; the caller fills their fields and sorts.
 void set_materials(Domain& domain, std::vector<Material> materials, const std::vector<int>& counts);
 
 /// Kinetic energy in J per m, with the affine part.

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <compare>
+#include <type_traits>
 #include <vector>
 
 namespace mpm
@@ -102,11 +103,21 @@ struct alignas(64) Tile
   std::array<double, tile_size> value;
 };
 
-/// Runs of consecutive nodes shared by a tile and the grid: f(place in the grid, place in the tile, count).
-/// In a wrapped grid every tile column is the one node column.
+/// The same of a field of vectors, (x, y) after (x, y).
+struct alignas(64) PairTile
+{
+  std::array<double, 2 * tile_size> value;
+};
+
+/// Runs of consecutive nodes shared by a tile and the grid: f(place in the grid, place in the tile, count),
+/// the count being a compile-time constant. In a wrapped grid every tile column is the one node column.
 template <class Function>
 void for_each_run(const Grid& grid, const Neighbours& around, const Function& f)
 {
+  constexpr std::integral_constant<int, 1> one{};
+  constexpr std::integral_constant<int, tile_margin> before{};
+  constexpr std::integral_constant<int, block_cells> inside{};
+  constexpr std::integral_constant<int, tile_margin + 1> after{};
   for (int row = 0; row < tile_nodes; ++row)
   {
     const int y = row - tile_margin;
@@ -117,12 +128,13 @@ void for_each_run(const Grid& grid, const Neighbours& around, const Function& f)
     if (grid.wrapped)
     {
       if (middle >= 0)
-        for (int column = 0; column < tile_nodes; ++column) f(middle * block_nodes + line, tile + column, 1);
+        for (int column = 0; column < tile_nodes; ++column)
+          f(middle * block_nodes + line, tile + column, one);
       continue;
     }
-    if (left >= 0) f(left * block_nodes + line + block_cells - tile_margin, tile, tile_margin);
-    if (middle >= 0) f(middle * block_nodes + line, tile + tile_margin, block_cells);
-    if (right >= 0) f(right * block_nodes + line, tile + tile_margin + block_cells, tile_margin + 1);
+    if (left >= 0) f(left * block_nodes + line + block_cells - tile_margin, tile, before);
+    if (middle >= 0) f(middle * block_nodes + line, tile + tile_margin, inside);
+    if (right >= 0) f(right * block_nodes + line, tile + tile_margin + block_cells, after);
   }
 }
 
@@ -130,21 +142,45 @@ void for_each_run(const Grid& grid, const Neighbours& around, const Function& f)
 inline void add_tile(const Grid& grid, const Neighbours& around, const Tile& tile, std::vector<double>& field)
 {
   for_each_run(grid, around,
-               [&](int node, int place, int count)
+               [&](int node, int place, auto count)
                {
-                 for (int k = 0; k < count; ++k) field[node + k] += tile.value[place + k];
+                 double* __restrict to = &field[node];
+                 for (int k = 0; k < count; ++k) to[k] += tile.value[place + k];
                });
 }
 
-/// Copies a node field into a tile; nodes of blocks that do not exist are zero.
-inline void read_tile(const Grid& grid, const Neighbours& around, const std::vector<double>& field,
-                      Tile& tile)
+/// Adds a tile of vectors to the node fields of their components.
+inline void add_tile(const Grid& grid, const Neighbours& around, const PairTile& tile, std::vector<double>& x,
+                     std::vector<double>& y)
+{
+  for_each_run(grid, around,
+               [&](int node, int place, auto count)
+               {
+                 double* __restrict to_x = &x[node], * __restrict to_y = &y[node];
+                 const double* __restrict from = &tile.value[2 * place];
+                 for (int k = 0; k < count; ++k)
+                 {
+                   to_x[k] += from[2 * k];
+                   to_y[k] += from[2 * k + 1];
+                 }
+               });
+}
+
+/// Copies the components of a vector field into a tile; nodes of blocks that do not exist are zero.
+inline void read_tile(const Grid& grid, const Neighbours& around, const std::vector<double>& x,
+                      const std::vector<double>& y, PairTile& tile)
 {
   tile.value.fill(0);
   for_each_run(grid, around,
-               [&](int node, int place, int count)
+               [&](int node, int place, auto count)
                {
-                 for (int k = 0; k < count; ++k) tile.value[place + k] = field[node + k];
+                 const double* __restrict from_x = &x[node], * __restrict from_y = &y[node];
+                 double* __restrict to = &tile.value[2 * place];
+                 for (int k = 0; k < count; ++k)
+                 {
+                   to[2 * k] = from_x[k];
+                   to[2 * k + 1] = from_y[k];
+                 }
                });
 }
 } // namespace mpm

@@ -7,83 +7,131 @@ namespace
 /// dt |L| beyond which a step has lost the motion.
 constexpr double greatest_gradient = 1;
 
-struct Velocities
+/// What the grid tells the particles of a chunk, before scaling: sums over the nodes, as vectors (x, y).
+struct alignas(64) Readings
 {
-  Tile x, y;
+  double velocity[chunk_size][2];                          ///< w v
+  double slope_x[chunk_size][2], slope_y[chunk_size][2];   ///< dw/dx v, dw/dy v
+  double moment_x[chunk_size][2], moment_y[chunk_size][2]; ///< w (x_i - x) v, w (y_i - y) v (eq. 3)
+  double change[chunk_size][2];                            ///< w (v* - v), for a FLIP share only
 };
 
-/// v = sum w v, C = D^-1 sum w v (x_i - x)^T (eq. 3) and L = sum v grad w; moves the particles. Returns the
-/// greatest displacement component in cells, infinity when a gradient is not a number or deforms the material
-/// wholly within the step.
-double gather(Particles& p, int begin, int count, const TileStencils& stencils, const Velocities& velocities,
-              double spacing, double dt, VelocityGradients& L)
+template <bool flip>
+void read(const ChunkStencils& s, int count, const PairTile& velocity, const PairTile& change, Readings& out)
+{
+  for (int begin = 0; begin < count; begin += 4)
+  {
+    Pairs v[4], slope_x[4], slope_y[4], moment_x[4], moment_y[4], dv[4];
+#pragma GCC unroll 4
+    for (int l = 0; l < 4; ++l)
+    {
+      const int k =
+          std::min(begin + l, count - 1); // the last one again instead of a fourth that is not there
+      const int node = s.node[k];
+      Pairs u{}, u_moment{}, u_slope{}, du{};
+#pragma GCC unroll 4
+      for (int j = 0; j < 4; ++j)
+      {
+        const Pairs row = load_pairs(&velocity.value[2 * (node + j * tile_stride)]);
+        u += s.y_weight[j][k] * row;
+        u_moment += s.y_moment[j][k] * row;
+        u_slope += s.y_slope[j][k] * row;
+        if constexpr (flip) du += s.y_weight[j][k] * load_pairs(&change.value[2 * (node + j * tile_stride)]);
+      }
+      const Pairs w = twice(s.x_weight[k]);
+      v[l] = w * u;
+      slope_x[l] = twice(s.x_slope[k]) * u;
+      slope_y[l] = w * u_slope;
+      moment_x[l] = twice(s.x_moment[k]) * u;
+      moment_y[l] = w * u_moment;
+      if constexpr (flip) dv[l] = w * du;
+    }
+    const auto sum = [begin](const Pairs* part, double(*to)[2])
+    { store_pairs(to[begin], sums(part[0], part[1], part[2], part[3])); };
+    sum(v, out.velocity);
+    sum(slope_x, out.slope_x);
+    sum(slope_y, out.slope_y);
+    sum(moment_x, out.moment_x);
+    sum(moment_y, out.moment_y);
+    if constexpr (flip) sum(dv, out.change);
+  }
+}
+
+/// v = sum w v*, C = D^-1 sum w v* (x_i - x)^T (eq. 3), L = sum v* grad w; moves the particles with v.
+void apply(Particles& p, int begin, int count, const Readings& from, double spacing, double dt,
+           VelocityGradients& L)
 {
   const double inverse_D = 3 / (spacing * spacing);
-  double greatest = 0;
-  const double calmest = greatest_gradient / dt;
-  bool calm = true;
+  double* __restrict x = &p.x[begin], * __restrict y = &p.y[begin];
+  double* __restrict vx = &p.velocity_x[begin], * __restrict vy = &p.velocity_y[begin];
+  double* __restrict cxx = &p.affine_xx[begin], * __restrict cxy = &p.affine_xy[begin];
+  double* __restrict cyx = &p.affine_yx[begin], * __restrict cyy = &p.affine_yy[begin];
   for (int k = 0; k < count; ++k)
   {
-    const int q = begin + k;
-    const auto x = stencils.x(p.x[q]), y = stencils.y(p.y[q]);
-    const int first = TileStencils::first_node(x, y);
-    const Row wx = x.weight, dwx = x.slope, wx_dx = x.weight * x.offset, y_moment = y.weight * y.offset;
-    Row ux{}, ux_dy{}, ux_dw{}, uy{}, uy_dy{}, uy_dw{};
-    for (int j = 0; j < 4; ++j)
-    {
-      const double wy = y.weight[j], dwy = y.slope[j], wdy = y_moment[j];
-      const int node = first + j * tile_stride;
-      const Row vx = load_row(&velocities.x.value[node]), vy = load_row(&velocities.y.value[node]);
-      ux += wy * vx;
-      ux_dy += wdy * vx;
-      ux_dw += dwy * vx;
-      uy += wy * vy;
-      uy_dy += wdy * vy;
-      uy_dw += dwy * vy;
-    }
-    const Row velocity_and_gradient = sums(wx * ux, wx * uy, dwx * ux, dwx * uy);
-    const Row affine = inverse_D * sums(wx_dx * ux, wx * ux_dy, wx_dx * uy, wx * uy_dy);
-    const Row gradient_y = sums(wx * ux_dw, wx * uy_dw, Row{}, Row{});
-    const double vx = velocity_and_gradient[0], vy = velocity_and_gradient[1];
-    p.velocity_x[q] = vx;
-    p.velocity_y[q] = vy;
-    p.affine_xx[q] = affine[0];
-    p.affine_xy[q] = affine[1];
-    p.affine_yx[q] = affine[2];
-    p.affine_yy[q] = affine[3];
-    L.xx[k] = velocity_and_gradient[2];
-    L.yx[k] = velocity_and_gradient[3];
-    L.xy[k] = gradient_y[0];
-    L.yy[k] = gradient_y[1];
-    p.x[q] += dt * vx;
-    p.y[q] += dt * vy;
-    const double move = std::max(std::fabs(vx), std::fabs(vy));
-    calm =
-        calm && std::fabs(L.xx[k]) + std::fabs(L.xy[k]) + std::fabs(L.yx[k]) + std::fabs(L.yy[k]) <= calmest;
-    greatest = std::max(greatest, move);
+    vx[k] = from.velocity[k][0];
+    vy[k] = from.velocity[k][1];
+    x[k] += dt * from.velocity[k][0];
+    y[k] += dt * from.velocity[k][1];
   }
-  return calm ? greatest * dt / spacing : std::numeric_limits<double>::infinity();
+  for (int k = 0; k < count; ++k)
+  {
+    cxx[k] = inverse_D * from.moment_x[k][0];
+    cyx[k] = inverse_D * from.moment_x[k][1];
+    cxy[k] = inverse_D * from.moment_y[k][0];
+    cyy[k] = inverse_D * from.moment_y[k][1];
+  }
+  for (int k = 0; k < count; ++k)
+  {
+    L.xx[k] = from.slope_x[k][0];
+    L.yx[k] = from.slope_x[k][1];
+    L.xy[k] = from.slope_y[k][0];
+    L.yy[k] = from.slope_y[k][1];
+  }
+}
+
+/// Greatest velocity component of `count` particles, in m/s; infinity when a gradient is not a number or
+/// beyond `calmest` (1/s).
+double fastest(const double* __restrict vx, const double* __restrict vy, int count,
+               const VelocityGradients& L, double calmest)
+{
+  int wild = 0;
+  for (int k = 0; k < count; ++k)
+    wild |= !(std::fabs(L.xx[k]) + std::fabs(L.xy[k]) + std::fabs(L.yx[k]) + std::fabs(L.yy[k]) <= calmest);
+  if (wild) return std::numeric_limits<double>::infinity();
+  alignas(64) double speed[chunk_size]{}, lanes[8]{};
+  for (int k = 0; k < count; ++k)
+  {
+    const double a = std::fabs(vx[k]), b = std::fabs(vy[k]);
+    speed[k] = a > b ? a : b;
+  }
+  for (int k = 0; k < chunk_size; k += 8)
+    for (int l = 0; l < 8; ++l) lanes[l] = speed[k + l] > lanes[l] ? speed[k + l] : lanes[l];
+  return *std::max_element(lanes, lanes + 8);
 }
 
 double update_home(Domain& domain, const Home& home, double dt)
 {
   const Grid& grid = domain.grid;
-  Velocities velocities;
-  read_tile(grid, home.around, grid.velocity_x, velocities.x);
-  read_tile(grid, home.around, grid.velocity_y, velocities.y);
-  const TileStencils stencils(grid, home.block);
+  PairTile velocity;
+  read_tile(grid, home.around, grid.velocity_x, grid.velocity_y, velocity);
+  const TileStencils tile(grid, home.block);
+  ChunkStencils stencils;
+  Readings readings;
   VelocityGradients gradients;
   Particles& p = domain.particles;
   double greatest = 0;
   for_each_chunk(home,
                  [&](int material, int begin, int count)
                  {
-                   const double move =
-                       gather(p, begin, count, stencils, velocities, grid.spacing, dt, gradients);
+                   stencils.find(tile, &p.x[begin], &p.y[begin], count);
+                   read<false>(stencils, count, velocity, velocity, readings);
+                   apply(p, begin, count, readings, grid.spacing, dt, gradients);
+                   const double speed = fastest(&p.velocity_x[begin], &p.velocity_y[begin], count, gradients,
+                                                greatest_gradient / dt);
+                   greatest = std::max(greatest, speed);
                    update_particles(domain, material, begin, count, gradients, dt);
-                   greatest = std::max(greatest, move);
                  });
-  return greatest;
+  return greatest * dt / grid.spacing;
 }
 
 /// Moves a gauge with the velocity of the ground at its place; nodes without mass are left out of the mean.

@@ -6,59 +6,119 @@ namespace
 {
 struct Tiles
 {
-  Tile mass, momentum_x, momentum_y, force_x, force_y;
+  Tile mass;
+  PairTile momentum, force;
 };
 
-inline void add(Tile& tile, int node, const Row& row)
+/// What the particles of a chunk bring to the nodes, as vectors (x, y) one after the other: momentum m v and
+/// m C column by column (eq. 2), internal force -V sigma column by column.
+struct Sources
 {
-  store_row(&tile.value[node], load_row(&tile.value[node]) + row);
-}
+  alignas(64) double mass[chunk_size];
+  alignas(64) double momentum[chunk_size][2], spread_x[chunk_size][2], spread_y[chunk_size][2];
+  alignas(64) double force_x[chunk_size][2], force_y[chunk_size][2];
 
-/// Momentum by eq. (2), internal force f = -V sigma grad w.
-void scatter(const Particles& p, const Range& range, const TileStencils& stencils, Tiles& tiles)
-{
-  for (int q = range.begin; q < range.end; ++q)
+  void gather(const Particles& p, int begin, int count)
   {
-    const auto x = stencils.x(p.x[q]), y = stencils.y(p.y[q]);
-    const int first = TileStencils::first_node(x, y);
-    const double V = p.volume[q];
-    const Row m = p.mass[q] * x.weight;
-    const Row ux = m * (p.velocity_x[q] + p.affine_xx[q] * x.offset), ux_dy = m * p.affine_xy[q];
-    const Row uy = m * (p.velocity_y[q] + p.affine_yx[q] * x.offset), uy_dy = m * p.affine_yy[q];
-    const Row fx_w = (-V * p.stress_xx[q]) * x.slope, fx_dw = (-V * p.stress_xy[q]) * x.weight;
-    const Row fy_w = (-V * p.stress_xy[q]) * x.slope, fy_dw = (-V * p.stress_yy[q]) * x.weight;
-    const Row y_moment = y.weight * y.offset;
+    for (int k = 0; k < count; ++k)
+    {
+      const int q = begin + k;
+      const double m = p.mass[q], V = p.volume[q];
+      mass[k] = m;
+      momentum[k][0] = m * p.velocity_x[q];
+      momentum[k][1] = m * p.velocity_y[q];
+      spread_x[k][0] = m * p.affine_xx[q];
+      spread_x[k][1] = m * p.affine_yx[q];
+      spread_y[k][0] = m * p.affine_xy[q];
+      spread_y[k][1] = m * p.affine_yy[q];
+      force_x[k][0] = -V * p.stress_xx[q];
+      force_x[k][1] = force_y[k][0] = -V * p.stress_xy[q];
+      force_y[k][1] = -V * p.stress_yy[q];
+    }
+  }
+};
+
+/// Sums at the 16 nodes of one cell's stencil, kept while one particle after the other stands in that cell.
+class CellSums
+{
+public:
+  explicit CellSums(int node) : node_(node) {}
+
+  void add(const ChunkStencils& s, const Sources& from, int k)
+  {
+    const Row wx = load_row(s.x_weight[k]);
+    const Pairs w = twice(s.x_weight[k]), slope = twice(s.x_slope[k]), moment = twice(s.x_moment[k]);
+    const Row m = from.mass[k] * wx;
+    const Pairs p_w = w * everywhere(from.momentum[k]) + moment * everywhere(from.spread_x[k]);
+    const Pairs p_moment = w * everywhere(from.spread_y[k]);
+    const Pairs f_w = slope * everywhere(from.force_x[k]), f_slope = w * everywhere(from.force_y[k]);
+#pragma GCC unroll 4
     for (int j = 0; j < 4; ++j)
     {
-      const double wy = y.weight[j], dwy = y.slope[j], wdy = y_moment[j];
-      const int node = first + j * tile_stride;
-      add(tiles.mass, node, wy * m);
-      add(tiles.momentum_x, node, wy * ux + wdy * ux_dy);
-      add(tiles.momentum_y, node, wy * uy + wdy * uy_dy);
-      add(tiles.force_x, node, wy * fx_w + dwy * fx_dw);
-      add(tiles.force_y, node, wy * fy_w + dwy * fy_dw);
+      const double wy = s.y_weight[j][k], dwy = s.y_slope[j][k], my = s.y_moment[j][k];
+      mass_[j] += wy * m;
+      momentum_[j] += wy * p_w;
+      momentum_[j] += my * p_moment;
+      force_[j] += wy * f_w;
+      force_[j] += dwy * f_slope;
     }
+  }
+
+  void flush(Tiles& tiles) const
+  {
+#pragma GCC unroll 4
+    for (int j = 0; j < 4; ++j)
+    {
+      const int node = node_ + j * tile_stride;
+      double *mass = &tiles.mass.value[node], *momentum = &tiles.momentum.value[2 * node],
+             *force = &tiles.force.value[2 * node];
+      store_row(mass, load_row(mass) + mass_[j]);
+      store_pairs(momentum, load_pairs(momentum) + momentum_[j]);
+      store_pairs(force, load_pairs(force) + force_[j]);
+    }
+  }
+
+private:
+  int node_;
+  Row mass_[4]{};
+  Pairs momentum_[4]{}, force_[4]{};
+};
+
+void scatter(const ChunkStencils& stencils, const Sources& sources, int count, Tiles& tiles)
+{
+  for (int k = 0; k < count;)
+  {
+    const int node = stencils.node[k];
+    CellSums sums(node);
+    for (; k < count && stencils.node[k] == node; ++k) sums.add(stencils, sources, k);
+    sums.flush(tiles);
   }
 }
 
 void scatter_home(Domain& domain, const Home& home)
 {
   Tiles tiles;
-  for (Tile* tile : {&tiles.mass, &tiles.momentum_x, &tiles.momentum_y, &tiles.force_x, &tiles.force_y})
-    tile->value.fill(0);
-  const TileStencils stencils(domain.grid, home.block);
-  for (const Range& range : home.ranges) scatter(domain.particles, range, stencils, tiles);
+  std::memset(&tiles, 0, sizeof tiles);
+  const TileStencils tile(domain.grid, home.block);
+  const Particles& p = domain.particles;
+  ChunkStencils stencils;
+  Sources sources;
+  for_each_chunk(home,
+                 [&](int, int begin, int count)
+                 {
+                   stencils.find(tile, &p.x[begin], &p.y[begin], count);
+                   sources.gather(p, begin, count);
+                   scatter(stencils, sources, count, tiles);
+                 });
   for (int k = 0; k < tile_size; ++k)
   {
-    tiles.force_x.value[k] += domain.gravity_x * tiles.mass.value[k];
-    tiles.force_y.value[k] += domain.gravity_y * tiles.mass.value[k];
+    tiles.force.value[2 * k] += domain.gravity_x * tiles.mass.value[k];
+    tiles.force.value[2 * k + 1] += domain.gravity_y * tiles.mass.value[k];
   }
   Grid& grid = domain.grid;
   add_tile(grid, home.around, tiles.mass, grid.mass);
-  add_tile(grid, home.around, tiles.momentum_x, grid.momentum_x);
-  add_tile(grid, home.around, tiles.momentum_y, grid.momentum_y);
-  add_tile(grid, home.around, tiles.force_x, grid.force_x);
-  add_tile(grid, home.around, tiles.force_y, grid.force_y);
+  add_tile(grid, home.around, tiles.momentum, grid.momentum_x, grid.momentum_y);
+  add_tile(grid, home.around, tiles.force, grid.force_x, grid.force_y);
 }
 } // namespace
 

@@ -1,10 +1,15 @@
 #pragma once
-// The one place for vectors: four neighbouring grid nodes of a row.
+// The one place for vectors: four neighbouring grid nodes of a row, as scalars or as (x, y) pairs.
 
 #include <cstring>
+#include <string_view>
+#ifdef __AVX512F__
+#include <immintrin.h>
+#endif
 
 namespace mpm
 {
+/// One number at each of four neighbouring nodes of a row.
 typedef double Row __attribute__((vector_size(32)));
 
 inline Row load_row(const double* from)
@@ -19,11 +24,115 @@ inline void store_row(double* to, const Row& row)
   std::memcpy(to, &row, sizeof row);
 }
 
-/// The sums of the lanes of four rows, as the lanes of one.
-inline Row sums(const Row& a, const Row& b, const Row& c, const Row& d)
+/// The instructions that this build uses; results are bit-identical for any number of threads on one path.
+inline constexpr std::string_view vector_path =
+#if defined(__AVX512F__)
+    "avx512";
+#elif defined(__AVX2__) && defined(__FMA__)
+    "avx2";
+#elif defined(__AVX__)
+    "avx";
+#elif defined(__SSE2__)
+    "sse2";
+#else
+    "scalar";
+#endif
+
+#ifdef __AVX512F__
+
+/// A vector (x, y) at each of four neighbouring nodes of a row.
+typedef double Pairs __attribute__((vector_size(64)));
+
+inline Pairs load_pairs(const double* from)
 {
-  const Row ab = __builtin_shufflevector(a, b, 0, 4, 2, 6) + __builtin_shufflevector(a, b, 1, 5, 3, 7);
-  const Row cd = __builtin_shufflevector(c, d, 0, 4, 2, 6) + __builtin_shufflevector(c, d, 1, 5, 3, 7);
-  return __builtin_shufflevector(ab, cd, 0, 1, 4, 5) + __builtin_shufflevector(ab, cd, 2, 3, 6, 7);
+  Pairs pairs;
+  std::memcpy(&pairs, from, sizeof pairs);
+  return pairs;
 }
+inline void store_pairs(double* to, const Pairs& pairs)
+{
+  std::memcpy(to, &pairs, sizeof pairs);
+}
+/// Each of the four numbers at `from` for both components; four more numbers there are read and not used.
+inline Pairs twice(const double* from)
+{
+  const Pairs row = load_pairs(from);
+  return __builtin_shufflevector(row, row, 0, 0, 1, 1, 2, 2, 3, 3);
+}
+/// One vector (x, y) at all nodes.
+inline Pairs everywhere(const double* vector)
+{
+  // The masked form, since g++ 12 warns of uninitialised values within the plain one.
+  return reinterpret_cast<Pairs>(_mm512_maskz_broadcast_f64x2(0xFF, _mm_loadu_pd(vector)));
+}
+/// The vectors of four arguments, each summed over its nodes, side by side.
+inline Pairs sums(const Pairs& a, const Pairs& b, const Pairs& c, const Pairs& d)
+{
+  const auto half = [](const Pairs& p, const Pairs& q)
+  {
+    return __builtin_shufflevector(p, q, 0, 1, 2, 3, 8, 9, 10, 11) +
+           __builtin_shufflevector(p, q, 4, 5, 6, 7, 12, 13, 14, 15);
+  };
+  const Pairs ab = half(a, b), cd = half(c, d);
+  return __builtin_shufflevector(ab, cd, 0, 1, 4, 5, 8, 9, 12, 13) +
+         __builtin_shufflevector(ab, cd, 2, 3, 6, 7, 10, 11, 14, 15);
+}
+/// The vectors of two arguments, each summed over its nodes, side by side.
+inline Row sums(const Pairs& a, const Pairs& b)
+{
+  const auto half = [](const Pairs& p)
+  { return __builtin_shufflevector(p, p, 0, 1, 2, 3) + __builtin_shufflevector(p, p, 4, 5, 6, 7); };
+  const Row u = half(a), v = half(b);
+  return __builtin_shufflevector(u, v, 0, 1, 4, 5) + __builtin_shufflevector(u, v, 2, 3, 6, 7);
+}
+
+#else
+
+/// A vector (x, y) at each of four neighbouring nodes of a row.
+struct Pairs
+{
+  Row left{}, right{};
+
+  Pairs& operator+=(const Pairs& other)
+  {
+    left += other.left;
+    right += other.right;
+    return *this;
+  }
+  friend Pairs operator+(Pairs a, const Pairs& b) { return a += b; }
+  friend Pairs operator-(const Pairs& a, const Pairs& b) { return {a.left - b.left, a.right - b.right}; }
+  friend Pairs operator*(const Pairs& a, const Pairs& b) { return {a.left * b.left, a.right * b.right}; }
+  friend Pairs operator*(double factor, const Pairs& a) { return {factor * a.left, factor * a.right}; }
+};
+
+inline Pairs load_pairs(const double* from)
+{
+  return {load_row(from), load_row(from + 4)};
+}
+inline void store_pairs(double* to, const Pairs& pairs)
+{
+  store_row(to, pairs.left);
+  store_row(to + 4, pairs.right);
+}
+inline Pairs twice(const double* from)
+{
+  const Row row = load_row(from);
+  return {__builtin_shufflevector(row, row, 0, 0, 1, 1), __builtin_shufflevector(row, row, 2, 2, 3, 3)};
+}
+inline Pairs everywhere(const double* vector)
+{
+  const Row row{vector[0], vector[1], vector[0], vector[1]};
+  return {row, row};
+}
+inline Row sums(const Pairs& a, const Pairs& b)
+{
+  const Row u = a.left + a.right, v = b.left + b.right;
+  return __builtin_shufflevector(u, v, 0, 1, 4, 5) + __builtin_shufflevector(u, v, 2, 3, 6, 7);
+}
+inline Pairs sums(const Pairs& a, const Pairs& b, const Pairs& c, const Pairs& d)
+{
+  return {sums(a, b), sums(c, d)};
+}
+
+#endif
 } // namespace mpm
