@@ -44,5 +44,8 @@ struct Elastic
   {
     add_elastic_stress(s, lame(), shear_modulus());
   }
+
+  /// Energy in J per m3 of undeformed volume that plastic flow has dissipated at point k of the state.
+  double dissipated(const double* const* /*state*/, int /*k*/) const { return 0; }
 };
 } // namespace mpm

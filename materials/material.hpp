@@ -3,6 +3,7 @@
 #include "materials/elastic.hpp"
 #include "materials/von_mises.hpp"
 
+#include <array>
 #include <span>
 #include <string>
 #include <variant>
@@ -12,6 +13,9 @@ namespace mpm
 {
 /// Every constitutive law there is. A new one is one header and one name here.
 using Law = std::variant<Elastic, VonMises>;
+
+/// No law remembers more history variables than this.
+inline constexpr int most_state_fields = 8;
 
 /// A named material of a scene: its law, and the law's history variables over the material's particles
 /// (state[field][k], k counted from the material's first particle).
@@ -38,6 +42,14 @@ struct Material
           return {fields.data(), fields.size()};
         },
         law);
+  }
+  /// Energy in J per m3 of undeformed volume that plastic flow has dissipated at the material's k-th
+  /// particle.
+  double dissipated(int k) const
+  {
+    std::array<const double*, most_state_fields> fields{};
+    for (std::size_t f = 0; f < state.size(); ++f) fields[f] = state[f].data();
+    return std::visit([&](const auto& l) { return l.dissipated(fields.data(), k); }, law);
   }
 };
 } // namespace mpm

@@ -19,8 +19,8 @@ struct StressBatch
   const double* __restrict exy;
 };
 
-/// sigma += D : de in plane strain (ezz = 0), lame and shear modulus in Pa. Not inlined, so that every law that
-/// begins with it rounds alike.
+/// sigma += D : de in plane strain (ezz = 0), lame and shear modulus in Pa. Not inlined, so that every law
+/// that begins with it rounds alike.
 [[gnu::noinline]] inline void add_elastic_stress(const StressBatch& s, double lame, double shear)
 {
 #pragma GCC ivdep

@@ -72,6 +72,16 @@ struct VonMises : Elastic
     if (plastic) return_to_yield_surface(s, state[0]);
   }
 
+  /// Energy in J/m3 that plastic flow has dissipated at point k: the strength integrated over the plastic
+  /// strain. The flow keeps the volume, so that deformed and undeformed volume differ by elastic strains
+  /// only.
+  double dissipated(const double* const* state, int k) const
+  {
+    const double strain = state[0][k], softened = std::min(strain, softening_strain);
+    return (peak + 0.5 * (residual - peak) * softened / softening_strain) * softened +
+           residual * (strain - softened);
+  }
+
 private:
   bool resolved_ = false;
 

@@ -59,7 +59,7 @@ void update_particles(Domain& domain, int material, int begin, int count, const 
       count,       &p.stress_xx[begin], &p.stress_yy[begin], &p.stress_zz[begin], &p.stress_xy[begin],
       e.xx.data(), e.yy.data(),         e.xy.data()};
   Material& m = domain.materials[material];
-  std::array<double*, 8> state{};
+  std::array<double*, most_state_fields> state{};
   for (std::size_t k = 0; k < m.state.size(); ++k)
     state[k] = &m.state[k][begin - domain.material_begin[material]];
   std::visit([&](const auto& law) { law.update(stress, state.data(), domain.plastic); }, m.law);
