@@ -64,12 +64,6 @@ inline GroundMotion pulse(double peak, double length, double total)
   return motion;
 }
 
-/// Closed form of `pulse`.
-inline double pulse_at(double peak, double length, double t)
-{
-  return t > 0 && t < length ? peak * std::pow(std::sin(std::numbers::pi * t / length), 4) : 0;
-}
-
 inline double stable_step(const Case& scene, const Model& model)
 {
   return scene.safety * scene.grid.spacing / greatest_wave_speed(*model.main);

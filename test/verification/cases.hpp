@@ -1,0 +1,14 @@
+#pragma once
+// The cases of the ladder: one function each, which runs the folder's case at one resolution.
+
+#include "test/verification/ladder.hpp"
+
+namespace mpm::verification
+{
+Findings run_self_weight(const std::filesystem::path& folder, double spacing);
+Findings run_uniform_column(const std::filesystem::path& folder, double spacing);
+/// Amplification of layered ground: cases layer, layer_p, two_layers.
+Findings run_site(const std::filesystem::path& folder, double spacing);
+/// The layer at one spacing; the resolution is the Courant number.
+Findings run_layer_courant(const std::filesystem::path& folder, double courant);
+} // namespace mpm::verification

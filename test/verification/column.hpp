@@ -1,0 +1,33 @@
+#pragma once
+// Free-field columns of a scene, settled or shaken, for cases that one dimension answers.
+
+#include "solver/stages/model.hpp"
+
+#include <complex>
+#include <filesystem>
+
+namespace mpm::verification
+{
+/// case.yaml of the folder with grid.spacing at `spacing` m.
+Case scene_at(const std::filesystem::path& folder, double spacing);
+
+/// The wave that the case's seismic.motion names, as the program would make it.
+std::shared_ptr<IncomingWave> wave_of(const Case& scene);
+
+/// A step within the case's Courant number that divides `every` (s).
+double step_dividing(double every, const Case& scene, const Domain& domain);
+
+/// Velocity of the ground surface; entry k is at (k + 1) every.
+struct Trace
+{
+  double every = 0;         ///< s
+  std::vector<double> x, y; ///< m/s
+};
+
+/// Shakes the scene's left column alone, from stress-free ground, and samples its surface.
+Trace shake_column(const Case& scene, std::shared_ptr<const IncomingWave> wave, double every);
+
+/// Fourier transform of samples, the first at `start` s.
+std::complex<double> transform(const std::vector<double>& samples, double every, double start,
+                               double frequency);
+} // namespace mpm::verification

@@ -1,0 +1,54 @@
+#include "test/verification/cases.hpp"
+#include "test/verification/column.hpp"
+
+#include "io/units.hpp"
+
+#include <cmath>
+
+namespace mpm::verification
+{
+namespace
+{
+constexpr double every = 0.01; // s; what the pulse holds above 90 Hz folds back below 10 Hz, and is nothing
+
+/// Amplification |surface / outcrop| of the scene's column in one direction at the reference's frequencies;
+/// the error is the greatest difference over the greatest value.
+Findings amplify(const Case& scene, const std::filesystem::path& folder)
+{
+  const auto reference = read_table(folder / "reference.csv");
+  const auto wave = wave_of(scene);
+  const Trace trace = shake_column(scene, wave, every);
+  const bool shear = wave->horizontal.has_value();
+  const std::vector<double>& surface = shear ? trace.x : trace.y;
+  std::vector<double> outcrop;
+  for (std::size_t k = 0; k < surface.size(); ++k)
+    outcrop.push_back(2 * wave->velocity((k + 1) * every)[shear ? 0 : 1]);
+  Curve curve{"amplification",
+              "frequency (Hz)",
+              "surface / outcrop",
+              reference.at("frequency"),
+              {},
+              reference.at("amplification")};
+  double error = 0, greatest = 0;
+  for (std::size_t k = 0; k < curve.x.size(); ++k)
+  {
+    curve.model.push_back(std::abs(transform(surface, every, every, curve.x[k]) /
+                                   transform(outcrop, every, every, curve.x[k])));
+    error = std::max(error, std::fabs(curve.model[k] - curve.reference[k]));
+    greatest = std::max(greatest, curve.reference[k]);
+  }
+  return {{{"amplification", error / greatest}}, {curve}};
+}
+} // namespace
+
+Findings run_site(const std::filesystem::path& folder, double spacing)
+{
+  return amplify(scene_at(folder, spacing), folder);
+}
+
+Findings run_layer_courant(const std::filesystem::path& folder, double courant)
+{
+  const Case scene = load_case(folder / "../layer/case.yaml", {"time_step.safety=" + number_text(courant)});
+  return amplify(scene, folder / "../layer");
+}
+} // namespace mpm::verification

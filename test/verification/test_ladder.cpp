@@ -1,0 +1,70 @@
+#include "test/verification/report.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace mpm::verification;
+
+namespace
+{
+/// Runs a case and holds every error and every observed order against the bounds of its ladder.yaml, whose
+/// reasons stand in the case's README.
+void check(std::string_view name, bool full)
+{
+  const Ladder ladder = load_ladder(name);
+  const Result result = climb(ladder_case(name), ladder, full ? ladder.full : ladder.quick);
+  for (const Row& row : result.rows)
+  {
+    INFO(table_line(row));
+    CHECK(row.pass());
+  }
+}
+void quick(std::string_view name)
+{
+  check(name, false);
+}
+} // namespace
+
+TEST_CASE("A column under its own weight has the closed form's stress and settlement (V6)", "[verification]")
+{
+  quick("self_weight");
+}
+
+TEST_CASE("Soil on rock amplifies S waves as the closed form says (V8)", "[verification]")
+{
+  quick("layer");
+}
+
+TEST_CASE("Two layers on rock amplify as their recursion says (V9)", "[verification]")
+{
+  quick("two_layers");
+}
+
+TEST_CASE("Soil on rock amplifies P waves with the P modulus (V10)", "[verification]")
+{
+  quick("layer_p");
+}
+
+TEST_CASE("Upgoing waves double at the surface and do not come back (V10, V11)", "[verification]")
+{
+  quick("uniform_column");
+}
+
+TEST_CASE("Every case of the ladder states a bound for each resolution that it runs", "[verification]")
+{
+  for (const LadderCase& one : ladder_cases())
+  {
+    const Ladder ladder = load_ladder(one.name);
+    INFO(ladder.name);
+    CHECK(!ladder.full.empty());
+    CHECK(!ladder.measures.empty());
+    CHECK(std::filesystem::exists(ladder.folder / "README.md"));
+    for (const Measure& measure : ladder.measures)
+      for (const auto* list : {&ladder.quick, &ladder.full})
+        for (const double resolution : *list) CHECK(measure.bounds.contains(resolution));
+  }
+}
+
+TEST_CASE("The whole ladder stays under its bounds", "[.ladder]")
+{
+  for (const LadderCase& one : ladder_cases()) check(one.name, true);
+}
