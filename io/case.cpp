@@ -98,15 +98,18 @@ void read_parts(Case& scene, const YamlNode& tree, Problems& problems)
 }
 } // namespace
 
-Case load_case(const std::filesystem::path& path, const std::vector<std::string>& overrides)
+Case load_case(const std::filesystem::path& path, const std::vector<std::string>& overrides,
+               const std::string& profile)
 {
   Case scene;
   scene.path = path;
   scene.text = read_file(path);
+  scene.profile = profile;
   scene.overrides = overrides;
   Problems problems;
   YamlNode tree = parse_yaml(scene.text, path.string(), problems);
   if (tree.kind == YamlNode::Kind::empty) problems.throw_if_any(); // not YAML: nothing more can be said
+  apply_profile(tree, profile, problems);
   for (const std::string& text : overrides) apply_override(tree, text, problems);
   scene.settings = flattened(tree);
   read_parts(scene, tree, problems);

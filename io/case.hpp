@@ -150,9 +150,10 @@ struct Case
 {
   std::filesystem::path path;
   std::string text;                   ///< the file as it stands
+  std::string profile;                ///< the one of `profiles` that was applied; empty: none
   std::vector<std::string> overrides; ///< `key.path=value`, as given by --set
-  /// Every key given and the text of its value ("grid.spacing", "0.25 m"), overrides applied, in the file's
-  /// order; elements of lists as "domain.x[0]".
+  /// Every key given and the text of its value ("grid.spacing", "0.25 m"), profile and overrides applied, in
+  /// the file's order; elements of lists as "domain.x[0]".
   std::vector<std::pair<std::string, std::string>> settings;
   std::vector<std::string> warnings; ///< for the log
 
@@ -176,8 +177,10 @@ struct Case
 /// Fields that a frame can hold: those of every particle, and the laws' history variables.
 std::vector<std::string> frame_fields();
 
-/// Reads and checks a case. `overrides` are `key.path=value` and win over the file. `Error`: input_missing
-/// when the file cannot be read; bad_input with every problem of the file, one a line, as
-/// `FILE:LINE:COLUMN: key.path: what; what is allowed; did you mean ...?`.
-Case load_case(const std::filesystem::path& path, const std::vector<std::string>& overrides = {});
+/// Reads and checks a case. `profile` names one of its `profiles`, whose values win over the file's;
+/// `overrides` are `key.path=value` and win over both. `Error`: input_missing when the file cannot be read;
+/// bad_input with every problem of the file, one a line, as `FILE:LINE:COLUMN: key.path: what; what is
+/// allowed; did you mean ...?`.
+Case load_case(const std::filesystem::path& path, const std::vector<std::string>& overrides = {},
+               const std::string& profile = {});
 } // namespace mpm

@@ -146,13 +146,15 @@ void History::load(const h5::Group& group)
   all_ = std::move(all);
 }
 
-void History::write(const std::filesystem::path& path, const Provenance& provenance) const
+void History::write(const std::filesystem::path& path, const Provenance& provenance,
+                    const std::function<void(h5::File&)>& more) const
 {
   write_file_atomically(path,
                         [&](h5::File& file)
                         {
                           write_provenance(file, provenance, "seismpm-history/1");
                           save(file);
+                          if (more) more(file);
                         });
 }
 } // namespace mpm

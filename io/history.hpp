@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -50,7 +51,9 @@ public:
   void save(h5::Group& group) const;
   /// Takes the rows from a file whose series and axes are the ones added here; refuses another.
   void load(const h5::Group& group);
-  void write(const std::filesystem::path&, const Provenance&) const;
+  /// `more` adds what is no series over time.
+  void write(const std::filesystem::path&, const Provenance&,
+             const std::function<void(h5::File&)>& more = {}) const;
 
 private:
   struct Record

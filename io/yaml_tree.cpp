@@ -127,6 +127,40 @@ YamlNode* step_down(YamlNode& node, const std::string& part, const Place& place,
   return &made;
 }
 
+/// The node at a key path (parts), made where it is missing; null (and a problem) if impossible.
+YamlNode* reach(YamlNode& root, const std::vector<std::string>& parts, const Place& place, Problems& problems)
+{
+  YamlNode* node = &root;
+  for (const std::string& part : parts)
+    if (!(node = step_down(*node, part, place, problems))) return nullptr;
+  return node;
+}
+
+bool is_key_path(const std::vector<std::string>& parts)
+{
+  return std::find(parts.begin(), parts.end(), "") == parts.end();
+}
+
+/// Puts one `key.path: value` of a profile into the tree.
+void apply_setting(YamlNode& root, YamlNode setting, Problems& problems)
+{
+  const std::vector<std::string> parts = parts_of(setting.key);
+  if (!is_key_path(parts))
+    return problems.add(setting.key_place, setting.path, "is not of the form key.path: value");
+  YamlNode* node = reach(root, parts, setting.key_place, problems);
+  if (!node) return;
+  setting.key = node->key;
+  setting.move_to(node->path);
+  *node = std::move(setting);
+}
+
+bool is_map(const YamlNode& node, const std::string& wanted, Problems& problems)
+{
+  if (node.kind == YamlNode::Kind::map) return true;
+  problems.add(node.place, node.path, "is not a map; give " + wanted);
+  return false;
+}
+
 int edit_distance(std::string_view a, std::string_view b)
 {
   std::vector<int> row(b.size() + 1);
@@ -184,6 +218,13 @@ const YamlNode* YamlNode::child(std::string_view wanted) const
   return nullptr;
 }
 
+void YamlNode::move_to(const std::string& new_path)
+{
+  const std::size_t old_length = path.size();
+  path = new_path;
+  for (YamlNode& below : children) below.move_to(new_path + below.path.substr(old_length));
+}
+
 YamlNode parse_yaml(const std::string& text, const std::string& file, Problems& problems)
 {
   try
@@ -209,7 +250,7 @@ void apply_override(YamlNode& root, const std::string& override_text, Problems& 
   const auto equals = override_text.find('=');
   const std::string path = override_text.substr(0, equals);
   const std::vector<std::string> parts = parts_of(path);
-  if (equals == std::string::npos || std::find(parts.begin(), parts.end(), "") != parts.end())
+  if (equals == std::string::npos || !is_key_path(parts))
     return problems.add(place, "", "is not of the form key.path=value");
   YAML::Node value;
   try
@@ -220,13 +261,38 @@ void apply_override(YamlNode& root, const std::string& override_text, Problems& 
   {
     return problems.add(place, path, "the value is not YAML: " + error.msg);
   }
-  YamlNode* node = &root;
-  for (const std::string& part : parts)
-    if (!(node = step_down(*node, part, place, problems))) return;
+  YamlNode* node = reach(root, parts, place, problems);
+  if (!node) return;
   const std::string key = node->key;
   *node = Builder{place.source, false, problems}.build(value, node->path, static_cast<int>(parts.size()));
   node->key = key;
   node->key_place = place;
+}
+
+void apply_profile(YamlNode& root, const std::string& wanted, Problems& problems)
+{
+  YamlNode profiles;
+  profiles.kind = YamlNode::Kind::map;
+  const auto found = std::find_if(root.children.begin(), root.children.end(),
+                                  [](const YamlNode& child) { return child.key == "profiles"; });
+  if (found != root.children.end())
+  {
+    profiles = std::move(*found);
+    root.children.erase(found);
+    if (!is_map(profiles, "profiles by name, as {quick: {grid.spacing: 1 m}}", problems)) return;
+  }
+  std::vector<std::string> names;
+  for (const YamlNode& profile : profiles.children)
+  {
+    names.push_back(profile.key);
+    if (!is_map(profile, "key paths with their values, as {grid.spacing: 1 m}", problems)) continue;
+    if (profile.key != wanted) continue;
+    for (const YamlNode& setting : profile.children) apply_setting(root, setting, problems);
+  }
+  if (wanted.empty() || std::find(names.begin(), names.end(), wanted) != names.end()) return;
+  std::string known = names.empty() ? "the case has no profiles" : "the case's profiles are";
+  for (const std::string& name : names) known += (name == names.front() ? " " : ", ") + name;
+  problems.add({"--profile " + wanted, 0, 0}, "", "no such profile; " + known + suggestion(wanted, names));
 }
 
 std::vector<std::pair<std::string, std::string>> flattened(const YamlNode& root)

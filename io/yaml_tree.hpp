@@ -62,6 +62,8 @@ struct YamlNode
   std::vector<YamlNode> children;
 
   const YamlNode* child(std::string_view key) const;
+  /// The node at another key path, and all below it with it.
+  void move_to(const std::string& new_path);
 };
 
 /// Reads YAML text; duplicate keys and broken syntax go to `problems`. `file` serves the messages.
@@ -70,6 +72,11 @@ YamlNode parse_yaml(const std::string& text, const std::string& file, Problems& 
 /// Puts `key.path=value` into the tree: keys are made as needed, elements of lists ("domain.x[0]" or
 /// "domain.x.0") must exist. The value is YAML itself.
 void apply_override(YamlNode& root, const std::string& override_text, Problems& problems);
+
+/// Takes `profiles` (`{NAME: {key.path: value, ...}}`) out of the tree and puts the values of the one called
+/// `wanted` into it as `apply_override` would; they keep their places in the file. Empty: none is wanted. The
+/// form of all of them is checked, and an unknown name is a problem.
+void apply_profile(YamlNode& root, const std::string& wanted, Problems& problems);
 
 /// Every scalar of the tree: key path and text, in order.
 std::vector<std::pair<std::string, std::string>> flattened(const YamlNode& root);

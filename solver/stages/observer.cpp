@@ -10,7 +10,6 @@ namespace mpm
 namespace
 {
 constexpr double slide_every = 0.1; // s between samples of the slide's measures
-constexpr double moved = 1;         // m beyond which ground counts as slid
 
 std::array<double, 2> displacement_of(const Domain& domain, int k)
 {
@@ -65,7 +64,7 @@ Frame::Field frame_field(const Domain& domain, const std::string& name)
 } // namespace
 
 Observer::Observer(Session& session, Model& model, const IncomingWave& wave)
-    : session_(session), model_(model), wave_(wave)
+    : session_(session), model_(model), wave_(wave), slide_(model, session.scene)
 {
   add_series();
 }
@@ -96,10 +95,7 @@ void Observer::add_series()
                       history_.add_series(group + "base_velocity", "m/s", {component}, fast_)});
   }
   upgoing_ = history_.add_series("motion/upgoing_velocity", "m/s", {component}, fast_);
-  area_ = history_.add_series("slide/moved_area", "m2", {}, slow_);
-  shift_ = history_.add_series("slide/centre_of_mass_displacement", "m", {component}, slow_);
-  toe_ = history_.add_series("slide/toe", "m", {}, slow_);
-  peak_ = history_.add_series("slide/peak_velocity", "m/s", {}, slow_);
+  slide_.add_series(history_, slow_);
   kinetic_ = history_.add_series("energy/kinetic", "J/m", {}, slow_);
 }
 
@@ -166,47 +162,11 @@ void Observer::sample_gauges(const Clock& clock)
   history_.record(upgoing_, wave_.velocity(clock.time()));
 }
 
-std::array<double, 2> Observer::base_displacement() const
-{
-  if (sides_.empty()) return {};
-  return displacement_of(*sides_[0].column->domain, sides_[0].column->particle_of_row(0));
-}
-
 void Observer::sample_slide(const Clock& clock)
 {
-  const Domain& main = *model_.main;
-  const Particles& p = main.particles;
-  const auto [bx, by] = base_displacement();
-  double area = 0, mass = 0, sx = 0, sy = 0, right = -INFINITY, left = INFINITY;
-  std::vector<double> speeds;
-  for (int k = 0; k < p.size(); ++k)
-  {
-    const auto [ux, uy] = displacement_of(main, k);
-    const double rx = ux - bx, ry = uy - by;
-    if (rx * rx + ry * ry < moved * moved) continue;
-    area += model_.reference_volume[p.id[k]];
-    mass += p.mass[k];
-    sx += p.mass[k] * rx;
-    sy += p.mass[k] * ry;
-    right = std::max(right, p.x[k]);
-    left = std::min(left, p.x[k]);
-    speeds.push_back(std::hypot(p.velocity_x[k], p.velocity_y[k]));
-  }
-  double peak = 0;
-  if (!speeds.empty())
-  {
-    const auto place = speeds.begin() + static_cast<std::ptrdiff_t>(0.99 * (speeds.size() - 1));
-    std::nth_element(speeds.begin(), place, speeds.end());
-    peak = *place;
-  }
   history_.start_row(clock.time(), slow_);
-  history_.record(area_, area);
-  history_.record(shift_, std::array{mass > 0 ? sx / mass : 0, mass > 0 ? sy / mass : 0});
-  history_.record(toe_, speeds.empty() ? NAN : sx >= 0 ? right : left);
-  history_.record(peak_, peak);
-  history_.record(kinetic_, kinetic_energy(main));
-  greatest_area_ = std::max(greatest_area_, area);
-  greatest_speed_ = std::max(greatest_speed_, peak);
+  slide_.sample(history_, clock.time());
+  history_.record(kinetic_, kinetic_energy(*model_.main));
 }
 
 void Observer::write_frame(const Clock& clock)
@@ -241,8 +201,8 @@ void Observer::save(h5::File& file) const
   group.write("frame_times", std::span<const double>(times), {times.size()}, "s");
   group.write("gauge_velocity", std::span<const double>(last_velocity_), {last_velocity_.size()}, "m/s");
   group.attribute("gauge_time", last_time_);
-  group.attribute("greatest_area", greatest_area_);
-  group.attribute("greatest_speed", greatest_speed_);
+  h5::Group slide = group.create_group("slide");
+  slide_.save(slide);
 }
 
 void Observer::load(const h5::File& file)
@@ -253,13 +213,13 @@ void Observer::load(const h5::File& file)
     frames_.push_back({frame_name(static_cast<std::int64_t>(frames_.size())), time});
   last_velocity_ = group.read_doubles("gauge_velocity");
   last_time_ = group.attribute_double("gauge_time");
-  greatest_area_ = group.attribute_double("greatest_area");
-  greatest_speed_ = group.attribute_double("greatest_speed");
+  slide_.load(group.open_group("slide"));
 }
 
 void Observer::write() const
 {
-  history_.write(*session_.folder / "history.h5", session_.provenance());
+  history_.write(*session_.folder / "history.h5", session_.provenance(),
+                 [this](h5::File& file) { slide_.write(file); });
 }
 
 nlohmann::json Observer::summary() const
@@ -271,6 +231,6 @@ nlohmann::json Observer::summary() const
     const Tracer& t = model_.main->tracers[g];
     gauges[points[g].name] = {{"displacement", {t.x - t.reference_x, t.y - t.reference_y}}};
   }
-  return {{"moved_area", greatest_area_}, {"peak_velocity", greatest_speed_}, {"gauges", gauges}};
+  return {{"slide", slide_.summary()}, {"gauges", gauges}};
 }
 } // namespace mpm

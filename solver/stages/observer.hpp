@@ -2,6 +2,7 @@
 
 #include "io/history.hpp"
 #include "solver/stages/session.hpp"
+#include "solver/stages/slide.hpp"
 
 namespace mpm
 {
@@ -32,7 +33,6 @@ private:
   void sample_gauges(const Clock& clock);
   void sample_slide(const Clock& clock);
   void write_frame(const Clock& clock);
-  std::array<double, 2> base_displacement() const;
 
   Session& session_;
   Model& model_;
@@ -40,11 +40,11 @@ private:
   History history_;
   History::Clock fast_ = 0, slow_ = 0;
   History::Series displacement_ = 0, velocity_ = 0, acceleration_ = 0, upgoing_ = 0;
-  History::Series area_ = 0, shift_ = 0, toe_ = 0, peak_ = 0, kinetic_ = 0;
+  History::Series kinetic_ = 0;
+  Slide slide_;
   std::vector<Side> sides_;
   std::vector<double> last_velocity_; ///< of the gauges at their last sample, m/s
   double last_time_ = 0;
   std::vector<std::pair<std::string, double>> frames_;
-  double greatest_area_ = 0, greatest_speed_ = 0;
 };
 } // namespace mpm

@@ -188,6 +188,7 @@ private:
   {
     nlohmann::json result = observer_.summary();
     result["motion"] = motion_.title;
+    result["resolution"] = resolution(session_.scene);
     for (const auto& [key, value] : motion_.identity) result["digests"][key] = value;
     if (!session_.options.from.empty()) result["digests"]["from"] = sha256_file(session_.options.from);
     return result;
@@ -223,8 +224,10 @@ int run_seismic(Session& session)
   Clock clock;
   clock.dt = choose_step(scene, *model.main);
   if (options.check) return predict(session, model, clock, scene.seismic.duration);
-  if (options.from.empty()) session.log.info("no gravity: starts from a stress-free state");
-  else load_static_state(session, model);
+  if (options.from.empty())
+    session.log.info("no gravity: starts from a stress-free state");
+  else
+    load_static_state(session, model);
 
   // 2. The folder: ours, finished, or to be gone on with.
   RunFolder::Identity identity{{"stage", "seismic"}};
@@ -240,8 +243,10 @@ int run_seismic(Session& session)
 
   // 3. The state: where an interrupted run stopped, or the switch from the static state.
   Shaking shaking(session, model, motion);
-  if (const auto file = session.newest_checkpoint()) shaking.resume(*file, clock);
-  else shaking.start(clock);
+  if (const auto file = session.newest_checkpoint())
+    shaking.resume(*file, clock);
+  else
+    shaking.start(clock);
 
   // 4. Shaking and run-out.
   return shaking.run(clock);

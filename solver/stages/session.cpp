@@ -54,6 +54,7 @@ std::optional<int> parse(int argc, char** argv, Options& options)
   }
   app.add_flag("--check", options.check, "validate and predict the cost; run nothing");
   app.add_option("--threads", options.threads, "threads (default: all)")->check(CLI::Range(1, 4096));
+  app.add_option("--profile", options.profile, "apply one of the case's profiles; --set goes on top");
   app.add_option("--set", options.overrides, "key.path=value: override a key of the case")
       ->expected(1)
       ->take_all();
@@ -92,7 +93,7 @@ bool Clock::passed(double every) const
 
 Session::Session(Options given) : options(std::move(given)), log(options.verbosity)
 {
-  scene = load_case(options.case_file, options.overrides);
+  scene = load_case(options.case_file, options.overrides, options.profile);
   for (const std::string& warning : scene.warnings) log.warn("{}", warning);
 }
 
@@ -137,6 +138,7 @@ void Session::write_checkpoint(const std::string& name, std::string_view stage, 
                           file.write_text("case", scene.text);
                           file.attribute("sha256", sha256(scene.text), "case");
                           file.attribute("path", scene.path.string(), "case");
+                          file.attribute("profile", scene.profile, "case");
                           file.write_strings("overrides", scene.overrides);
                           file.write_strings("ground", ground_settings(scene));
                           h5::Group time = file.create_group("clock");
@@ -201,6 +203,8 @@ void Session::finish(std::string_view stage, int exit, const Model& model, const
       {"ns_per_particle_step", 1e9 * loop * parallel::threads() / std::max(1.0, particles * steps)},
       {"warnings", log.warnings()},
       {"case_sha256", sha256(scene.text)},
+      {"profile", scene.profile},
+      {"overrides", scene.overrides},
       {"version", SEISMPM_VERSION},
       {"git", SEISMPM_GIT},
       {"build", SEISMPM_BUILD},

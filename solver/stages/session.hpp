@@ -21,6 +21,7 @@ struct Options
   double record_dt = NAN;       ///< s, of a record on the command line that does not tell it
   std::string record_unit;      ///< likewise
   double scale = 1;
+  std::string profile; ///< one of the case's profiles; empty: none
   std::vector<std::string> overrides;
   int threads = 0;     ///< 0: as many as the machine has
   double max_wall = 0; ///< s, 0: no limit

@@ -29,19 +29,21 @@ struct Folder
   }
 };
 
-Case load(const std::string& text, const std::vector<std::string>& overrides = {})
+Case load(const std::string& text, const std::vector<std::string>& overrides = {},
+          const std::string& profile = {})
 {
   const Folder folder;
-  return load_case(folder.write("case.yaml", text), overrides);
+  return load_case(folder.write("case.yaml", text), overrides, profile);
 }
 
 /// The messages, without the folder; the exit code goes first.
-std::string refusal(const std::string& text, const std::vector<std::string>& overrides = {})
+std::string refusal(const std::string& text, const std::vector<std::string>& overrides = {},
+                    const std::string& profile = {})
 {
   const Folder folder;
   try
   {
-    load_case(folder.write("case.yaml", text), overrides);
+    load_case(folder.write("case.yaml", text), overrides, profile);
   }
   catch (const Error& error)
   {
@@ -319,6 +321,68 @@ TEST_CASE("Overrides win, are recorded and are checked under their own name", "[
              Contains("domain.x: is a list of 2, counted from 0; it has no '2'"));
   CHECK_THAT(refusal(small, {"grid.spacing.x=1 m"}),
              Contains("grid.spacing: is a single value and has no 'x' below it"));
+}
+
+TEST_CASE("A profile is a named set of overrides, and --set goes on top of it", "[io]")
+{
+  const std::string text = small + R"(profiles:
+  fine: {grid.spacing: 0.5 m, grid.particles_per_cell: 4, "domain.x[1]": 50 m}
+  soft:
+    materials.soil.young_modulus: 20 MPa
+    static: {gravity: 1 m/s2, ramp: 2 s}
+)";
+  CHECK(load(text).settings == load(small).settings);
+  CHECK(load(text).profile.empty());
+
+  const Case fine = load(text, {}, "fine");
+  CHECK(fine.profile == "fine");
+  CHECK(fine.grid.spacing == 0.5);
+  CHECK(fine.grid.particles_per_cell == 4);
+  CHECK(fine.domain.right == 50);
+  CHECK(fine.settings ==
+        load(small, {"grid.spacing=0.5 m", "grid.particles_per_cell=4", "domain.x[1]=50 m"}).settings);
+
+  const Case soft = load(text, {"static.ramp=3 s"}, "soft");
+  CHECK(soft.materials[0].elastic().young == 20e6);
+  CHECK(soft.statics.gravity == 1);
+  CHECK(soft.statics.ramp == 3);
+}
+
+TEST_CASE("What a profile holds is checked as the file's own keys, at the profile's lines", "[io]")
+{
+  const std::string text = small + R"(profiles:
+  fine:
+    grid.spacing: 0.5
+    grid.particle: 4
+    domain.x[2]: 3 m
+    materials..density: 1 kg/m3
+)";
+  CHECK(refusal(text, {}, "fine") ==
+        "65\n"
+        "case.yaml:16:19: grid.spacing: needs a unit: write '0.5 m'; units: m, mm, cm or km\n"
+        "case.yaml:17:5: grid.particle: unknown key 'particle'; allowed: spacing or particles_per_cell; did "
+        "you mean "
+        "'particles_per_cell'?\n"
+        "case.yaml:18:5: domain.x: is a list of 2, counted from 0; it has no '2'\n"
+        "case.yaml:19:5: profiles.fine.materials..density: is not of the form key.path: value\n");
+  CHECK_THAT(refusal(small + "profiles: [fine]\n"), Contains("case.yaml:14:11: profiles: is not a map"));
+  CHECK_THAT(refusal(small + "profiles: {fine: 2}\n"),
+             Contains("case.yaml:14:18: profiles.fine: is not a map"));
+  CHECK_THAT(refusal(small, {"profiles.fine=1"}), Contains("unknown key 'profiles'"));
+}
+
+TEST_CASE("An unknown profile is refused with the known ones", "[io]")
+{
+  CHECK(refusal(small + "profiles: {fine: {}, coarse: {}}\n", {}, "coarze") ==
+        "65\n--profile coarze: no such profile; the case's profiles are fine, coarse; did you mean "
+        "'coarse'?\n");
+  CHECK(refusal(small, {}, "fine") == "65\n--profile fine: no such profile; the case has no profiles\n");
+}
+
+TEST_CASE("The slope's profile 'paper' and its paper.yaml are one case", "[io]")
+{
+  const std::filesystem::path folder = std::filesystem::path(SOURCE_DIR) / "cases/slope";
+  CHECK(load_case(folder / "case.yaml", {}, "paper").settings == load_case(folder / "paper.yaml").settings);
 }
 
 TEST_CASE("A within motion is refused with the reason, and recorded_as has no default", "[io]")

@@ -237,7 +237,7 @@ void collect(const h5::Group& group, const std::string& path, Contents& found)
 {
   for (const char* name :
        {"step", "time", "dt", "start_time", "start_step", "drift", "plastic", "held", "unbalanced", "kinetic",
-        "begin", "end", "gauge_time", "greatest_area", "greatest_speed"})
+        "begin", "end", "gauge_time", "trigger_time"})
     if (group.has_attribute(name)) found[path + "@" + name] = bytes(group.attribute_doubles(name));
   for (const std::string& name : group.children())
   {
@@ -582,6 +582,28 @@ TEST_CASE("a folder that holds another setting's run is refused with 73 and the 
   CHECK_THAT(other_motion.said, Contains("motion.horizontal"));
   CHECK(bench.run("mpm-static", bench.static_arguments("a")).code == 73);
   CHECK(times(bench / "static") == before);
+}
+
+TEST_CASE("a profile, --set and a case that says the same itself are one run", "[stages]")
+{
+  const Bench bench;
+  put(bench / "case.yaml",
+      cut + "profiles: {soft: {materials.clay.young_modulus: 30 MPa, static.ramp: 2 s}}\n");
+  REQUIRE(bench.run_static("static", {"--profile", "soft"}).code == 0);
+  const Ending same = bench.run_static(
+      "static", {"--set", "materials.clay.young_modulus=30 MPa", "--set", "static.ramp=2 s"});
+  CHECK(same.code == 0);
+  CHECK_THAT(same.said, Contains("finished already"));
+  const Ending plain = bench.run_static("static");
+  CHECK(plain.code == 73);
+  CHECK_THAT(plain.said, Contains("materials.clay.young_modulus is 40 MPa, but 30 MPa"));
+  CHECK(open_complete(bench / "static/final.h5").attribute_string("profile", "case") == "soft");
+  CHECK_THAT(contents(bench / "static/summary.json"), Contains("\"profile\": \"soft\""));
+  REQUIRE(bench.run_seismic("a", {"--profile", "soft", "--set", "seismic.duration=0.1 s"}).code == 0);
+  const Ending unknown = bench.run_static("b", {"--profile", "sofd"});
+  CHECK(unknown.code == 65);
+  CHECK_THAT(unknown.said, Contains("did you mean 'soft'"));
+  CHECK_FALSE(fs::exists(bench / "b"));
 }
 
 TEST_CASE("a profile file with another text makes another ground: 73 in its folder, 65 for its static state",

@@ -1,0 +1,183 @@
+"""One page on a seismic run: section, histories, motion, measures, warnings, resolution and versions."""
+import re
+from textwrap import fill
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Normalize
+
+import plot_sections
+import spectrum
+from plot_common import Missing, array, frame_times, group_of, open_history, read_summary, text
+from plot_histories import read_gauges, read_motion
+
+PAGE = (8.27, 11.69)  # inches, A4
+MOST_WARNINGS = 6
+
+
+def read_outline(file):
+    """x and heights of the free surface at the start and at the end (m)."""
+    group = group_of(file, "outline")
+    return array(group, "x"), array(group, "start"), array(group, "end")
+
+
+def draw_section(figure, axis, folder, outline):
+    """Plastic strain of the last frame, with the free surface before and after."""
+    time, path = frame_times(folder)[-1]
+    particles = plot_sections.read_particles(path, "plastic_strain")
+    strain = particles["plastic_strain"]
+    plot_sections.add_sizes([particles])
+    extent = plot_sections.common_extent([particles])
+    plot_sections.add_pixels(particles, extent)
+    norm = Normalize(0.0, min(plot_sections.MOST_STRAIN, plot_sections.top_of([strain], 99.0)))
+    panel = {"title": f"plastic strain at t = {time:.2f} s; the free surface before (dashed) and after", "norm": norm,
+             "values": strain, "grey": plot_sections.without_strain([particles])[0], "colours": "inferno_r"}
+    plot_sections.draw_panel(axis, particles, panel, extent)
+    x, start, end = outline
+    axis.plot(x, start, "k--", lw=0.8)
+    axis.plot(x, end, "k-", lw=0.8)
+    axis.set_ylim(top=max(extent[3], np.nanmax(start) + 2.0))
+    axis.set_xlabel("x (m)")
+    figure.colorbar(ScalarMappable(norm, "inferno_r"), ax=axis, fraction=0.02, pad=0.01, extend="max")
+
+
+def mark_trigger(axis, trigger):
+    """Vertical line at the trigger time (s), where there is one."""
+    if trigger is not None:
+        axis.axvline(trigger, color="C3", lw=0.8, ls=":")
+
+
+def draw_gauges(axis, file, trigger):
+    """Distance (m) of the gauges from where they were."""
+    time, names, fields = read_gauges(file)
+    for k, name in enumerate(names):
+        axis.plot(time, np.linalg.norm(fields["displacement"][:, k], axis=1), lw=0.9, label=name)
+    axis.set_title("displacement of the gauges (m)")
+    axis.legend(fontsize=6)
+    mark_trigger(axis, trigger)
+
+
+def draw_slide(axis, file, trigger):
+    """Moved area (m2), and the centre of mass' displacement (m) on the right."""
+    slide = group_of(file, "slide")
+    time = array(slide, "time")
+    axis.plot(time, array(slide, "moved_area"), "C0", lw=1.0)
+    axis.set_title("moved area (m², blue), its displacement (m, green)")
+    other = axis.twinx()
+    other.plot(time, np.linalg.norm(array(slide, "centre_of_mass_displacement"), axis=1), "C2", lw=1.0)
+    other.set_ylim(bottom=0.0)
+    axis.set_ylim(bottom=0.0)
+    mark_trigger(axis, trigger)
+
+
+def draw_speed(axis, file, trigger):
+    """Speed of the slide (m/s): 99th percentile and centre of mass."""
+    slide = group_of(file, "slide")
+    time = array(slide, "time")
+    axis.plot(time, array(slide, "peak_velocity"), "C3", lw=1.0, label="99th percentile")
+    velocity = array(slide, "centre_of_mass_velocity")
+    axis.plot(time, np.linalg.norm(velocity, axis=1), "C2", lw=1.0, label="centre of mass")
+    axis.set_title("speed of the moved ground (m/s)")
+    axis.legend(fontsize=6)
+    mark_trigger(axis, trigger)
+
+
+def draw_motion(axis, file, trigger):
+    """Outcrop acceleration (m/s2), twice the upgoing one as applied."""
+    time, velocity = read_motion(file)
+    for component in range(velocity.shape[1]):
+        if np.any(velocity[:, component]):
+            acceleration, dt = spectrum.acceleration_of(time, 2.0 * velocity[:, component])
+            axis.plot(time[0] + dt * np.arange(len(acceleration)), acceleration, lw=0.6,
+                      label=("horizontal", "vertical")[component])
+            axis.legend(fontsize=6)
+    axis.set_title("outcrop acceleration as applied (m/s²)")
+    mark_trigger(axis, trigger)
+
+
+def value(number, unit, digits=2):
+    """A number with its unit, a dash where there is none."""
+    return "–" if number is None else f"{number:.{digits}f} {unit}"
+
+
+def peak_text(peak, unit):
+    """A greatest value with its time and place."""
+    if peak["time"] is None:
+        return "–"
+    place = "".join(f" at x = {p[0]:.1f}, y = {p[1]:.1f} m" for p in [peak.get("place")] if p)
+    return f"{peak['value']:.2f} {unit}, t = {peak['time']:.1f} s{place}"
+
+
+def measures(summary):
+    """Name and text of the measures of the run."""
+    slide = summary["slide"]
+    dx, dy = slide["centre_of_mass_displacement"]
+    rows = [("trigger time", value(slide["trigger_time"], "s")),
+            ("moved area (over 1 m)", value(slide["moved_area"], "m²", 1)),
+            ("moved mass", value(slide["moved_mass"] / 1000.0, "t/m", 1)),
+            ("its centre of mass moved", f"{dx:.2f} m, {dy:.2f} m"),
+            ("toe advance", value(slide["toe_advance"], "m") + f", to x = {value(slide['toe'], 'm', 1)}"),
+            ("greatest velocity, 99th percentile", peak_text(slide["peak_velocity"], "m/s")),
+            ("greatest velocity, point", peak_text(slide["point_velocity"], "m/s")),
+            ("surface rose most", f"{slide['outline_rise']['height']:.2f} m at x = {value(slide['outline_rise']['x'], 'm', 1)}"),
+            ("surface fell most", f"{slide['outline_fall']['height']:.2f} m at x = {value(slide['outline_fall']['x'], 'm', 1)}")]
+    ended = summary.get("motion_ended")
+    return rows + ([("motion ended", f"{ended:.2f} s")] if ended is not None else [])
+
+
+def carried(summary):
+    """What the resolution carries, and who computed it."""
+    resolution = summary["resolution"]
+    lines = [f"cells of {resolution['spacing']:g} m, {resolution['particles_per_cell']} x "
+             f"{resolution['particles_per_cell']} particles each, {summary['particles']} particles, {summary['steps']} "
+             f"steps of {1e3 * summary['dt']:.3g} ms"]
+    lines += [f"{name}: S waves ({m['shear_speed']:.0f} m/s) within 1 % of their speed up to {m['frequency']:.1f} Hz"
+              for name, m in resolution.get("materials", {}).items()]
+    lines += [f"ended with {summary['exit']} after {summary['wall_seconds']:.0f} s on {summary['threads']} threads",
+              f"seismpm {summary['version']} ({summary['git']}), case {summary['case_sha256'][:12]}"
+              + (f", profile {summary['profile']}" if summary.get("profile") else "")]
+    lines += [f"{key}: " + re.sub("([0-9a-f]{12})[0-9a-f]+", r"\1", digest)
+              for key, digest in summary.get("digests", {}).items()]
+    return lines
+
+
+def write_text(axis, x, title, lines, width):
+    """A heading and lines of text below it, wrapped."""
+    wrapped = "\n".join(fill(line, width, subsequent_indent="   ") for line in lines)
+    axis.text(x, 1.0, title, fontsize=8, weight="bold", va="top", transform=axis.transAxes)
+    axis.text(x, 0.93, wrapped, fontsize=6.5, va="top", transform=axis.transAxes, linespacing=1.35)
+
+
+def draw_words(axis, summary):
+    """Measures on the left; warnings, resolution and versions on the right."""
+    axis.axis("off")
+    write_text(axis, 0.0, "Measures", [f"{name}: {words}" for name, words in measures(summary)], 70)
+    warnings = [text(warning) for warning in summary.get("warnings", [])]
+    more = [f"and {len(warnings) - MOST_WARNINGS} more, see log.txt"] if len(warnings) > MOST_WARNINGS else []
+    lines = ["! " + warning for warning in warnings[:MOST_WARNINGS]] + more or ["no warnings"]
+    write_text(axis, 0.52, "What it carries, and warnings", carried(summary) + lines, 78)
+
+
+def page(folder, out, heading):
+    """summary.png: one page on the run."""
+    summary = read_summary(folder)
+    if "slide" not in summary:
+        raise Missing("summary.json has no slide")
+    trigger = summary["slide"]["trigger_time"]
+    with plt.rc_context({"axes.titlesize": 8, "xtick.labelsize": 7, "ytick.labelsize": 7, "axes.labelsize": 7}):
+        figure = plt.figure(figsize=PAGE, layout="constrained")
+        rows = figure.subfigures(4, 1, height_ratios=(3.4, 2.3, 2.3, 3.0))
+        with open_history(folder) as file:
+            draw_section(rows[0], rows[0].subplots(), folder, read_outline(file))
+            for axis, draw in zip(np.append(rows[1].subplots(1, 2), rows[2].subplots(1, 2)),
+                                  (draw_gauges, draw_slide, draw_speed, draw_motion)):
+                draw(axis, file, trigger)
+                axis.grid(alpha=0.3)
+                axis.set_xlabel("time (s); dotted: trigger")
+        draw_words(rows[3].subplots(), summary)
+    figure.suptitle(heading, fontsize=11)
+    path = out / "summary.png"
+    figure.savefig(path, dpi=150)
+    plt.close(figure)
+    print(path)

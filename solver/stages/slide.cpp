@@ -1,0 +1,285 @@
+#include "solver/stages/slide.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mpm
+{
+namespace
+{
+/// A particle's motion since the start of the shaking, less that of the base.
+struct Movement
+{
+  double ux, uy, vx, vy;
+  double distance() const { return std::hypot(ux, uy); }
+  double speed() const { return std::hypot(vx, vy); }
+};
+
+Movement motion_of(const Domain& domain, int k)
+{
+  const Particles& p = domain.particles;
+  return {p.x[k] - p.reference_x[k], p.y[k] - p.reference_y[k], p.velocity_x[k], p.velocity_y[k]};
+}
+
+Movement base_motion(const Model& model)
+{
+  if (!model.left) return {};
+  return motion_of(*model.left->domain, model.left->particle_of_row(0));
+}
+
+Movement relative(const Movement& a, const Movement& b)
+{
+  return {a.ux - b.ux, a.uy - b.uy, a.vx - b.vx, a.vy - b.vy};
+}
+
+/// Value below which a share of the values lies.
+double percentile(std::vector<double> values, double share)
+{
+  if (values.empty()) return 0;
+  const auto place = values.begin() + static_cast<std::ptrdiff_t>(share * (values.size() - 1));
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+/// Gaps between bins that hold ground, closed by straight lines.
+void close_gaps(std::vector<double>& height)
+{
+  std::size_t last = height.size();
+  for (std::size_t k = 0; k < height.size(); ++k)
+  {
+    if (std::isnan(height[k])) continue;
+    for (std::size_t g = last + 1; last < k && g < k; ++g)
+      height[g] = height[last] + (height[k] - height[last]) * double(g - last) / double(k - last);
+    last = k;
+  }
+}
+
+/// Number for JSON, null where there is none.
+nlohmann::json number(double value)
+{
+  return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json();
+}
+} // namespace
+
+double MovedGround::advance() const
+{
+  const double length = std::hypot(displacement[0], displacement[1]);
+  return length > 0 ? (displacement[0] * velocity[0] + displacement[1] * velocity[1]) / length : 0;
+}
+
+Outline::Change Outline::greatest_rise() const
+{
+  Change greatest{0, NAN};
+  for (std::size_t k = 0; k < x.size(); ++k)
+    if (end[k] - start[k] > greatest.height) greatest = {end[k] - start[k], x[k]};
+  return greatest;
+}
+
+Outline::Change Outline::greatest_fall() const
+{
+  Change greatest{0, NAN};
+  for (std::size_t k = 0; k < x.size(); ++k)
+    if (start[k] - end[k] > greatest.height) greatest = {start[k] - end[k], x[k]};
+  return greatest;
+}
+
+void Slide::Peak::raise(double other, double when, std::array<double, 2> place)
+{
+  if (other > value) *this = {other, when, place[0], place[1]};
+}
+
+void Slide::add_series(History& history, History::Clock clock)
+{
+  const Axis component{"component", {"x", "y"}};
+  series_.area = history.add_series("slide/moved_area", "m2", {}, clock);
+  series_.mass = history.add_series("slide/moved_mass", "kg/m", {}, clock);
+  series_.displacement = history.add_series("slide/centre_of_mass_displacement", "m", {component}, clock);
+  series_.velocity = history.add_series("slide/centre_of_mass_velocity", "m/s", {component}, clock);
+  series_.toe = history.add_series("slide/toe", "m", {}, clock);
+  series_.toe_advance = history.add_series("slide/toe_advance", "m", {}, clock);
+  series_.velocity_99 = history.add_series("slide/peak_velocity", "m/s", {}, clock);
+  series_.velocity_point = history.add_series("slide/point_velocity", "m/s", {}, clock);
+  series_.point = history.add_series("slide/point", "m", {component}, clock);
+}
+
+void Slide::sample(History& history, double time)
+{
+  note_departures(time);
+  now_ = measure();
+  area_.raise(now_.area, time);
+  velocity_99_.raise(now_.velocity_99, time);
+  velocity_point_.raise(now_.velocity_point, time, now_.point);
+  time_ = time;
+  history.record(series_.area, now_.area);
+  history.record(series_.mass, now_.mass);
+  history.record(series_.displacement, now_.displacement);
+  history.record(series_.velocity, now_.velocity);
+  history.record(series_.toe, now_.toe);
+  history.record(series_.toe_advance, now_.toe_advance);
+  history.record(series_.velocity_99, now_.velocity_99);
+  history.record(series_.velocity_point, now_.velocity_point);
+  history.record(series_.point, now_.point);
+}
+
+MovedGround Slide::measure() const
+{
+  const Domain& main = *model_.main;
+  const Particles& p = main.particles;
+  const Movement base = base_motion(model_);
+  MovedGround all;
+  std::array<double, 2> now{INFINITY, -INFINITY}, before = now; // leftmost and rightmost x
+  std::vector<double> speeds;
+  for (int k = 0; k < p.size(); ++k)
+  {
+    const Movement m = relative(motion_of(main, k), base);
+    if (m.distance() < moved) continue;
+    all.area += model_.reference_volume[p.id[k]];
+    all.mass += p.mass[k];
+    all.displacement[0] += p.mass[k] * m.ux;
+    all.displacement[1] += p.mass[k] * m.uy;
+    all.velocity[0] += p.mass[k] * m.vx;
+    all.velocity[1] += p.mass[k] * m.vy;
+    now = {std::min(now[0], p.x[k]), std::max(now[1], p.x[k])};
+    before = {std::min(before[0], p.reference_x[k]), std::max(before[1], p.reference_x[k])};
+    speeds.push_back(m.speed());
+    if (speeds.size() > 1 && speeds.back() <= all.velocity_point) continue;
+    all.velocity_point = speeds.back();
+    all.point = {p.x[k], p.y[k]};
+  }
+  if (speeds.empty()) return all;
+  for (auto* sum : {&all.displacement, &all.velocity})
+    for (double& value : *sum) value /= all.mass;
+  const int front = all.displacement[0] >= 0 ? 1 : 0;
+  all.toe = now[front];
+  all.toe_advance = std::fabs(now[front] - before[front]);
+  all.velocity_99 = percentile(std::move(speeds), 0.99);
+  return all;
+}
+
+void Slide::note_departures(double time)
+{
+  const Domain& main = *model_.main;
+  const Movement base = base_motion(model_);
+  departure_.resize(main.particles.size(), NAN);
+  for (int k = 0; k < main.particles.size(); ++k)
+  {
+    const Movement m = relative(motion_of(main, k), base);
+    double& since = departure_[main.particles.id[k]];
+    const double far = m.distance();
+    if (far < departed) since = NAN;
+    if (far < departed || !std::isnan(since)) continue;
+    // It passed the threshold since the last sample: when, its present speed tells.
+    const double rate = (m.ux * m.vx + m.uy * m.vy) / far;
+    since = rate > 0 ? std::max(time_, time - (far - departed) / rate) : time;
+  }
+}
+
+double Slide::trigger_time() const
+{
+  const Domain& main = *model_.main;
+  const Particles& p = main.particles;
+  const Movement base = base_motion(model_);
+  std::vector<std::pair<double, double>> left; // when, mass
+  double mass = 0;
+  for (int k = 0; k < p.size() && !departure_.empty(); ++k)
+  {
+    if (relative(motion_of(main, k), base).distance() < moved || std::isnan(departure_[p.id[k]])) continue;
+    left.push_back({departure_[p.id[k]], p.mass[k]});
+    mass += p.mass[k];
+  }
+  std::sort(left.begin(), left.end());
+  double gone = 0;
+  for (const auto& [time, part] : left)
+    if ((gone += part) >= early * mass) return time;
+  return NAN;
+}
+
+Outline Slide::outline() const
+{
+  const Particles& p = model_.main->particles;
+  const double size = scene_.grid.particle_spacing(), left = scene_.domain.left;
+  const int count = static_cast<int>(std::lround(scene_.domain.width() / size));
+  Outline line;
+  for (int k = 0; k < count; ++k) line.x.push_back(left + (k + 0.5) * size);
+  line.start.assign(count, NAN);
+  line.end.assign(count, NAN);
+  const auto raise = [&](std::vector<double>& height, double x, double y)
+  {
+    const double bin = std::floor((x - left) / size);
+    if (bin < 0 || bin >= count) return;
+    double& top = height[static_cast<std::size_t>(bin)];
+    top = std::isnan(top) ? y + size / 2 : std::max(top, y + size / 2);
+  };
+  for (int k = 0; k < p.size(); ++k)
+  {
+    raise(line.start, p.reference_x[k], p.reference_y[k]);
+    raise(line.end, p.x[k], p.y[k]);
+  }
+  close_gaps(line.start);
+  close_gaps(line.end);
+  return line;
+}
+
+nlohmann::json Slide::peak(const Peak& peak) const
+{
+  nlohmann::json result{{"value", peak.value}, {"time", number(peak.time)}};
+  if (!std::isnan(peak.x)) result["place"] = {peak.x, peak.y};
+  return result;
+}
+
+nlohmann::json Slide::summary() const
+{
+  const Outline line = outline();
+  const auto change = [](const Outline::Change& c) {
+    return nlohmann::json{{"height", c.height}, {"x", number(c.x)}};
+  };
+  return {{"trigger_time", number(trigger_time())},
+          {"moved_area", now_.area},
+          {"moved_mass", now_.mass},
+          {"greatest_moved_area", peak(area_)},
+          {"centre_of_mass_displacement", now_.displacement},
+          {"toe", number(now_.toe)},
+          {"toe_advance", now_.toe_advance},
+          {"peak_velocity", peak(velocity_99_)},
+          {"point_velocity", peak(velocity_point_)},
+          {"outline_rise", change(line.greatest_rise())},
+          {"outline_fall", change(line.greatest_fall())}};
+}
+
+void Slide::write(h5::File& file) const
+{
+  const Outline line = outline();
+  h5::Group group = file.create_group("outline");
+  group.write("x", std::span<const double>(line.x), {line.x.size()}, "m");
+  for (const auto& [name, height] : {std::pair{"start", &line.start}, std::pair{"end", &line.end}})
+  {
+    group.write(name, std::span<const double>(*height), {height->size()}, "m");
+    group.attach_scale(name, "x", 0);
+  }
+  file.attribute("trigger_time", trigger_time(), "slide");
+}
+
+void Slide::save(h5::Group& group) const
+{
+  group.write("departure", std::span<const double>(departure_), {departure_.size()}, "s");
+  std::vector<double> peaks;
+  for (const Peak* p : {&area_, &velocity_99_, &velocity_point_})
+    peaks.insert(peaks.end(), {p->value, p->time, p->x, p->y});
+  group.write("peaks", std::span<const double>(peaks), {3, 4}, "1");
+  group.attribute("time", time_);
+}
+
+void Slide::load(const h5::Group& group)
+{
+  departure_ = group.read_doubles("departure");
+  const std::vector<double> peaks = group.read_doubles("peaks");
+  std::size_t k = 0;
+  for (Peak* p : {&area_, &velocity_99_, &velocity_point_})
+  {
+    *p = {peaks.at(k), peaks.at(k + 1), peaks.at(k + 2), peaks.at(k + 3)};
+    k += 4;
+  }
+  time_ = group.attribute_double("time");
+  now_ = measure();
+}
+} // namespace mpm

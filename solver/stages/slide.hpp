@@ -1,0 +1,90 @@
+#pragma once
+// Run-out: what of the ground has moved, since when, how far and how fast.
+
+#include "io/case.hpp"
+#include "io/history.hpp"
+#include "solver/stages/model.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace mpm
+{
+/// The ground that has moved more than `Slide::moved` relative to the base, at one time.
+struct MovedGround
+{
+  double area = 0;                      ///< of the undeformed ground, m2
+  double mass = 0;                      ///< kg per m
+  std::array<double, 2> displacement{}; ///< of the centre of mass, relative to the base, m
+  std::array<double, 2> velocity{};     ///< of the centre of mass, relative to the base, m/s
+  double toe = NAN;                     ///< x of the particle farthest in the direction of the slide, m
+  double toe_advance = 0;               ///< from the x of the one that was farthest at the start, m
+  double velocity_99 = 0;               ///< 99th percentile of the particles' speed relative to the base, m/s
+  double velocity_point = 0;            ///< greatest such speed, m/s
+  std::array<double, 2> point{NAN, NAN}; ///< where, m
+
+  /// Speed of the centre of mass in the direction of its displacement, m/s.
+  double advance() const;
+};
+
+/// Height of the free surface over x, in bins of one particle spacing over the width of the domain (m).
+struct Outline
+{
+  std::vector<double> x, start,
+      end; ///< `start`: when the shaking began; `end`: now. NaN where there is no ground
+
+  struct Change
+  {
+    double height, x; ///< m; NaN where the ground has not changed its outline
+  };
+  Change greatest_rise() const;
+  Change greatest_fall() const;
+};
+
+/// Measures of a slide. Motion counts relative to the base of the left free-field column, or to the grid
+/// where the sides have none.
+class Slide
+{
+public:
+  static constexpr double moved = 1;      ///< m beyond which ground counts as slid
+  static constexpr double departed = 0.1; ///< m beyond which it has left its place
+  static constexpr double early = 0.1;    ///< share of the moved mass that makes the beginning of a slide
+
+  Slide(const Model& model, const Case& scene) : model_(model), scene_(scene) {}
+  void add_series(History& history, History::Clock clock);
+  /// Measures the state at `time` (s) and records it in the row that has begun.
+  void sample(History& history, double time);
+  const MovedGround& now() const { return now_; }
+
+  /// When the slide began, s: `early` of the ground that has moved by now had left its place for good. NaN:
+  /// none has moved.
+  double trigger_time() const;
+  Outline outline() const;
+  nlohmann::json summary() const;
+  /// Writes `/outline` and the trigger time.
+  void write(h5::File& file) const;
+
+  void save(h5::Group& group) const;
+  void load(const h5::Group& group);
+
+private:
+  struct Peak
+  {
+    double value = 0, time = NAN, x = NAN, y = NAN;
+    void raise(double other, double when, std::array<double, 2> place = {NAN, NAN});
+  };
+  MovedGround measure() const;
+  void note_departures(double time);
+  nlohmann::json peak(const Peak& peak) const;
+
+  const Model& model_;
+  const Case& scene_;
+  MovedGround now_;
+  double time_ = 0;               ///< of the last sample, s
+  std::vector<double> departure_; ///< by particle id: since when it is out of place, s; NaN: it is in place
+  Peak area_, velocity_99_, velocity_point_;
+  struct
+  {
+    History::Series area, mass, displacement, velocity, toe, toe_advance, velocity_99, velocity_point, point;
+  } series_{};
+};
+} // namespace mpm
