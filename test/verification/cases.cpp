@@ -13,6 +13,7 @@ std::span<const LadderCase> ladder_cases()
       LadderCase{"two_layers", run_site},               // V9
       LadderCase{"layer_p", run_site},                  // V10
       LadderCase{"uniform_column", run_uniform_column}, // V10, V11
+      LadderCase{"hill", run_hill},                     // V15
   };
   return cases;
 }

@@ -49,6 +49,11 @@ TEST_CASE("Upgoing waves double at the surface and do not come back (V10, V11)",
   quick("uniform_column");
 }
 
+TEST_CASE("An elastic slope answers a wavelet as finite elements say (V15)", "[verification]")
+{
+  quick("hill");
+}
+
 TEST_CASE("Every case of the ladder states a bound for each resolution that it runs", "[verification]")
 {
   for (const LadderCase& one : ladder_cases())
