@@ -31,6 +31,7 @@ public:
   std::string_view name() const override { return "base"; }
   bool absorbs() const override { return true; }
   void add_forces(Domain& domain, double dt) override;
+  void measure_work(const Domain& domain, double dt, Energies& now) const override;
   void visit_state(StateVisitor& visitor) override { visit_faces(visitor, "face_", faces_); }
 
 private:

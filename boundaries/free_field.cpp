@@ -140,6 +140,40 @@ void FreeFieldSide::add_ghost_base(Domain& domain, double dt) const
                      });
 }
 
+/// The dashpots' traction c (v_column - v) does the work c (v_column - v) v_column - c (v - v_column)^2: what
+/// the column brings, less what the scattered wave takes away.
+void FreeFieldSide::measure_work(const Domain& domain, double dt, Energies& now) const
+{
+  double brought = 0, radiated = 0;
+  for_each_face_node(domain, faces_,
+                     [&](const Face& face, int node, int row, double weight)
+                     {
+                       const auto [vx, vy] = domain.grid.middle_velocity(node);
+                       const auto [ux, uy] = column_velocity(row);
+                       const double cx = face.dashpot_x * weight, cy = face.dashpot_y * weight;
+                       brought += cx * (ux - vx) * ux + cy * (uy - vy) * uy;
+                       radiated += cx * (vx - ux) * (vx - ux) + cy * (vy - uy) * (vy - uy);
+                     });
+  now[Energy::radiated_sides] += dt * radiated;
+  if (!column_) return;
+  now[Energy::free_field] += dt * (brought + ghost_base_power(domain, dt)) + blocks_.work(domain, dt);
+}
+
+double FreeFieldSide::ghost_base_power(const Domain& domain, double dt) const
+{
+  const auto [ux, uy] = wave_->velocity(domain.time + 0.5 * dt);
+  double power = 0;
+  for_each_face_node(domain, ghost_base_,
+                     [&](const Face& face, int node, int row, double weight)
+                     {
+                       const auto [vx, vy] = domain.grid.middle_velocity(node);
+                       const auto [cx, cy] = column_velocity(row);
+                       power += weight *
+                                (face.dashpot_x * (2 * ux - cx) * vx + face.dashpot_y * (2 * uy - cy) * vy);
+                     });
+  return power;
+}
+
 double FreeFieldSide::separation(const Domain& domain) const
 {
   if (!column_) return 0;

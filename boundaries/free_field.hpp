@@ -54,12 +54,14 @@ public:
   void sort(const Domain& domain) override { place_images(domain, ghosts_); }
   void bind(const Domain& domain) override { blocks_.bind(domain, ghosts_); }
   void add_forces(Domain& domain, double dt) override;
+  void measure_work(const Domain& domain, double dt, Energies& now) const override;
   void visit_state(StateVisitor& visitor) override;
   /// Greatest distance by which a face and its column have moved apart, m.
   double separation(const Domain& domain) const;
 
 private:
   void add_ghost_base(Domain& domain, double dt) const;
+  double ghost_base_power(const Domain& domain, double dt) const;
   std::array<double, 2> column_velocity(int row) const;
 
   Edge edge_;

@@ -97,10 +97,10 @@ void ImageBlocks::bind(const Domain& domain, const std::vector<Image>& images)
   }
 }
 
-std::array<double, 2> ImageBlocks::scatter(Domain& domain, const ImageHome& home,
-                                           const std::vector<Image>& images, const Extra& extra) const
+std::array<double, 2> ImageBlocks::scatter(Domain& domain, ImageHome& home, const std::vector<Image>& images,
+                                           const Extra& extra) const
 {
-  Tile force_x, force_y, mass;
+  Tile &force_x = home.force_x, &force_y = home.force_y, mass;
   for (Tile* tile : {&force_x, &force_y, &mass}) tile->value.fill(0);
   const TileStencils stencils(domain.grid, home.block);
   const Particles& p = domain.particles;
@@ -136,18 +136,20 @@ std::array<double, 2> ImageBlocks::scatter(Domain& domain, const ImageHome& home
                  for (int k = 0; k < count; ++k)
                  {
                    if (g.mass[node + k] <= 0) continue;
-                   const double fx = force_x.value[place + k], fy = force_y.value[place + k];
-                   g.force_x[node + k] += fx - mass.value[place + k] * a[0];
-                   g.force_y[node + k] += fy - mass.value[place + k] * a[1];
+                   double &fx = force_x.value[place + k], &fy = force_y.value[place + k];
                    sum[0] += fx;
                    sum[1] += fy;
+                   fx -= mass.value[place + k] * a[0];
+                   fy -= mass.value[place + k] * a[1];
+                   g.force_x[node + k] += fx;
+                   g.force_y[node + k] += fy;
                  }
                });
   return sum;
 }
 
 std::array<double, 2> ImageBlocks::add_forces(Domain& domain, const std::vector<Image>& images,
-                                              const Extra& extra) const
+                                              const Extra& extra)
 {
   std::vector<std::array<double, 2>> parts(homes_.size());
   for (const auto& colour : colours_)
@@ -162,6 +164,30 @@ std::array<double, 2> ImageBlocks::add_forces(Domain& domain, const std::vector<
   return sum;
 }
 
+double ImageBlocks::work(const Domain& domain, double dt) const
+{
+  const Grid& g = domain.grid;
+  std::vector<double> parts(homes_.size());
+  parallel::for_each(static_cast<int>(homes_.size()),
+                     [&](int at)
+                     {
+                       const ImageHome& home = homes_[at];
+                       double power = 0;
+                       for_each_run(g, home.around,
+                                    [&](int node, int place, int count)
+                                    {
+                                      for (int k = 0; k < count; ++k)
+                                      {
+                                        const auto [vx, vy] = g.middle_velocity(node + k);
+                                        power += home.force_x.value[place + k] * vx +
+                                                 home.force_y.value[place + k] * vy;
+                                      }
+                                    });
+                       parts[at] = dt * power;
+                     });
+  return std::accumulate(parts.begin(), parts.end(), 0.0);
+}
+
 void FrozenImages::bind(const Domain& domain)
 {
   blocks_.bind(domain, images_);
@@ -173,6 +199,7 @@ void FrozenImages::add_forces(Domain& domain, double)
   const std::array<double, 2> now = blocks_.add_forces(domain, images_, {});
   if (resultant_.empty()) resultant_.push_back(now);
   const double ax = (resultant_[0][0] - now[0]) / mass_, ay = (resultant_[0][1] - now[1]) / mass_;
+  correction_ = {ax, ay};
   Grid& g = domain.grid;
   parallel::for_each(static_cast<int>(g.blocks.size()),
                      [&](int block)
@@ -183,6 +210,12 @@ void FrozenImages::add_forces(Domain& domain, double)
                          g.force_y[k] += g.mass[k] * ay;
                        }
                      });
+}
+
+void FrozenImages::measure_work(const Domain& domain, double dt, Energies& now) const
+{
+  const auto [px, py] = domain.ledger.step.momentum;
+  now[Energy::reaction] += blocks_.work(domain, dt) + dt * (correction_[0] * px + correction_[1] * py);
 }
 
 void FrozenImages::visit_state(StateVisitor& visitor)

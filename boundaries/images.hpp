@@ -47,8 +47,9 @@ public:
     int first_row = 0;
   };
   /// Adds the images' forces to nodes that hold real mass, and returns their sum (N per m).
-  std::array<double, 2> add_forces(Domain& domain, const std::vector<Image>& images,
-                                   const Extra& extra) const;
+  std::array<double, 2> add_forces(Domain& domain, const std::vector<Image>& images, const Extra& extra);
+  /// Work of those forces in the step, J per m; after the equation of motion.
+  double work(const Domain& domain, double dt) const;
 
 private:
   struct ImageHome
@@ -56,8 +57,9 @@ private:
     BlockIndex block;
     Neighbours around;
     int begin, end;
+    Tile force_x, force_y; ///< of the last step, N per m
   };
-  std::array<double, 2> scatter(Domain& domain, const ImageHome& home, const std::vector<Image>& images,
+  std::array<double, 2> scatter(Domain& domain, ImageHome& home, const std::vector<Image>& images,
                                 const Extra& extra) const;
   std::vector<int> order_;
   std::vector<ImageHome> homes_;
@@ -74,12 +76,14 @@ public:
   void sort(const Domain& domain) override { place_images(domain, images_); }
   void bind(const Domain& domain) override;
   void add_forces(Domain& domain, double dt) override;
+  void measure_work(const Domain& domain, double dt, Energies& now) const override;
   void visit_state(StateVisitor& visitor) override;
 
 private:
   std::vector<Image> images_;
   std::vector<std::array<double, 2>> resultant_; ///< one entry, of the first step, N per m
   ImageBlocks blocks_;
-  double mass_ = 0; ///< of the domain, kg per m
+  double mass_ = 0;                    ///< of the domain, kg per m
+  std::array<double, 2> correction_{}; ///< uniform acceleration of the last step, m/s2
 };
 } // namespace mpm

@@ -18,10 +18,12 @@ void MirroredWall::bind(const Domain& domain)
 {
   pairs_.clear();
   on_wall_.clear();
+  shared_ = false;
   const Grid& grid = domain.grid;
+  const int columns = grid.wrapped ? 1 : block_cells; // a wrapped block has one column of nodes
   for (const BlockIndex& block : grid.blocks)
     for (int y = 0; y < block_cells; ++y)
-      for (int x = 0; x < block_cells; ++x)
+      for (int x = 0; x < columns; ++x)
       {
         const int i = block.x * block_cells + x, j = block.y * block_cells + y;
         const int depth = ((wall_.normal == Direction::x ? i : j) - wall_.line) * wall_.inward;
@@ -36,9 +38,18 @@ void MirroredWall::bind(const Domain& domain)
       }
 }
 
+void MirroredWall::share_nodes(Grid& grid) const
+{
+  if (grid.share.empty()) grid.share.assign(grid.nodes(), 1.0);
+  for (const Pair& pair : pairs_) grid.share[pair.ghost] = 0;
+  for (const int node : on_wall_) grid.share[node] *= 0.5;
+}
+
 void MirroredWall::constrain(Domain& domain)
 {
   Grid& g = domain.grid;
+  if (!shared_) share_nodes(g);
+  shared_ = true;
   const double sx = wall_.image_sign_x(), sy = wall_.image_sign_y();
   for (const auto& [inside, ghost] : pairs_)
   {

@@ -34,6 +34,7 @@ public:
   void constrain(Domain& domain) override;
 
 private:
+  void share_nodes(Grid& grid) const;
   struct Pair
   {
     int inside, ghost;
@@ -41,5 +42,6 @@ private:
   Wall wall_;
   std::vector<Pair> pairs_;
   std::vector<int> on_wall_;
+  bool shared_ = false; ///< whether the grid knows which nodes are images
 };
 } // namespace mpm

@@ -123,6 +123,8 @@ void save_domain(h5::Group& group, Domain& domain)
   }
   Saver saver(group.create_group("tracers"));
   visit_tracers(saver, domain.tracers);
+  Saver ledger(group.create_group("energy"));
+  visit_ledger(ledger, domain.ledger);
 }
 
 void load_particles(const h5::Group& group, Domain& domain)
@@ -171,6 +173,8 @@ void load_domain(const h5::Group& group, Domain& domain)
   }
   Loader loader(group.open_group("tracers"));
   visit_tracers(loader, domain.tracers);
+  Loader ledger(group.open_group("energy"));
+  visit_ledger(ledger, domain.ledger);
   load_particles(group, domain);
 }
 } // namespace mpm

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "solver/mpm/state.hpp"
+#include "solver/mpm/ledger.hpp"
 
 namespace mpm
 {
@@ -24,6 +24,9 @@ struct Boundary
   virtual void add_forces(Domain&, double /*dt*/) {}
   /// Last word before the equation of motion: mirrors nodes at a wall.
   virtual void constrain(Domain&) {}
+  /// After the equation of motion: adds to `now` what its own forces did to the ground in the step, with the
+  /// nodes' mean velocity (Grid::middle_velocity), J per m.
+  virtual void measure_work(const Domain&, double /*dt*/, Energies& /*now*/) const {}
   /// What the ground remembers here, for checkpoints.
   virtual void visit_state(StateVisitor&) {}
 };

@@ -69,6 +69,7 @@ struct Domain
   std::vector<int> place;                  ///< where a particle id stands now
   double drift = 0;                        ///< cells that a particle may have moved since the last sort
   Balance balance;
+  Ledger ledger;
   double greatest_move = 0; ///< greatest displacement component of the last step, in cells
 };
 

@@ -36,6 +36,7 @@ void Grid::build(std::vector<BlockIndex> wanted, bool with_dashpots)
   for (auto* field : {&mass, &momentum_x, &momentum_y, &force_x, &force_y, &velocity_x, &velocity_y})
     field->assign(count, 0.0);
   for (auto* field : {&dashpot_x, &dashpot_y}) field->assign(with_dashpots ? count : 0, 0.0);
+  share.clear();
 }
 
 void Grid::clear(int block)

@@ -49,8 +49,19 @@ struct Grid
   std::vector<double> dashpot_x,
       dashpot_y; ///< viscous coefficients in N s/m; empty without absorbing boundaries
   std::vector<double> velocity_x, velocity_y; ///< updated velocity v*
+  /// Part of a node that belongs to the ground, for sums over nodes: 0 for images beyond a mirrored wall, 1/2
+  /// on it, 1/4 where two walls meet; empty without walls.
+  std::vector<double> share;
+  double smallest_mass = 0; ///< nodes with less stay at rest, kg per m
 
   double inverse_spacing() const { return 1 / spacing; }
+  /// Mean of a node's velocity before and after the equation of motion; zero where it stays at rest, m/s.
+  std::array<double, 2> middle_velocity(int node) const
+  {
+    if (mass[node] <= smallest_mass) return {};
+    return {0.5 * (momentum_x[node] / mass[node] + velocity_x[node]),
+            0.5 * (momentum_y[node] / mass[node] + velocity_y[node])};
+  }
   int nodes() const { return static_cast<int>(blocks.size()) * block_nodes; }
   /// Place of a block in `blocks`, -1 if it does not exist.
   int find(BlockIndex block) const;

@@ -36,6 +36,7 @@ void step(Domain& domain, double dt)
   if (domain.drift > drift_limit - move_limit) sort_particles(domain);
   particles_to_grid(domain, dt); // (a) mass, momentum and forces to the grid
   solve_grid(domain, dt);        // (b) equation of motion
+  account(domain, dt);           //     its work, for the energy ledger
   grid_to_particles(domain, dt); // (c) velocities back to the particles, (d) deformation and stress
   find_diverged(domain);
   domain.drift += domain.greatest_move;

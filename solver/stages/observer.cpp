@@ -9,7 +9,7 @@ namespace mpm
 {
 namespace
 {
-constexpr double slide_every = 0.1; // s between samples of the slide's measures
+constexpr double slide_every = 0.1; // s between samples of the slide's measures and of the energy
 
 std::array<double, 2> displacement_of(const Domain& domain, int k)
 {
@@ -96,7 +96,21 @@ void Observer::add_series()
   }
   upgoing_ = history_.add_series("motion/upgoing_velocity", "m/s", {component}, fast_);
   slide_.add_series(history_, slow_);
-  kinetic_ = history_.add_series("energy/kinetic", "J/m", {}, slow_);
+  add_ledgers();
+}
+
+void Observer::add_ledgers()
+{
+  model_.for_each_domain(
+      [&](Domain& domain, const std::string& column)
+      {
+        const std::string group = column.empty() ? "energy/" : "energy/" + column + "/";
+        LedgerSeries ledger{&domain, {}, 0};
+        for (std::size_t k = 0; k < energy_terms.size(); ++k)
+          ledger.terms[k] = history_.add_series(group + std::string(energy_terms[k].name), "J/m", {}, slow_);
+        ledger.residual = history_.add_series(group + "residual", "J/m", {}, slow_);
+        ledgers_.push_back(ledger);
+      });
 }
 
 void Observer::place_gauges()
@@ -166,7 +180,17 @@ void Observer::sample_slide(const Clock& clock)
 {
   history_.start_row(clock.time(), slow_);
   slide_.sample(history_, clock.time());
-  history_.record(kinetic_, kinetic_energy(*model_.main));
+  sample_energy();
+}
+
+void Observer::sample_energy()
+{
+  for (const LedgerSeries& ledger : ledgers_)
+  {
+    const Energies e = energy_balance(*ledger.domain);
+    for (std::size_t k = 0; k < energy_terms.size(); ++k) history_.record(ledger.terms[k], e.value[k]);
+    history_.record(ledger.residual, residual(e));
+  }
 }
 
 void Observer::write_frame(const Clock& clock)

@@ -6,7 +6,7 @@
 
 namespace mpm
 {
-/// What a seismic run writes down while it goes: gauges, free field, slide, frames.
+/// What a seismic run writes down while it goes: gauges, free field, slide, energy, frames.
 class Observer
 {
 public:
@@ -29,9 +29,18 @@ private:
     const FreeFieldColumn* column;
     History::Series surface_displacement, surface_velocity, base_displacement, base_velocity;
   };
+  /// The ledger of a domain as series.
+  struct LedgerSeries
+  {
+    const Domain* domain;
+    std::array<History::Series, energy_terms.size()> terms;
+    History::Series residual;
+  };
   void add_series();
+  void add_ledgers();
   void sample_gauges(const Clock& clock);
   void sample_slide(const Clock& clock);
+  void sample_energy();
   void write_frame(const Clock& clock);
 
   Session& session_;
@@ -40,8 +49,8 @@ private:
   History history_;
   History::Clock fast_ = 0, slow_ = 0;
   History::Series displacement_ = 0, velocity_ = 0, acceleration_ = 0, upgoing_ = 0;
-  History::Series kinetic_ = 0;
   Slide slide_;
+  std::vector<LedgerSeries> ledgers_;
   std::vector<Side> sides_;
   std::vector<double> last_velocity_; ///< of the gauges at their last sample, m/s
   double last_time_ = 0;

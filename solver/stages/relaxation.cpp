@@ -40,7 +40,8 @@ std::pair<double, double> yielded(const Domain& domain)
 }
 } // namespace
 
-Relaxation::Relaxation(Session& session, Model& model) : session_(session), model_(model)
+Relaxation::Relaxation(Session& session, Model& model)
+    : session_(session), model_(model), energy_(session, model)
 {
   const Particles& p = model.main->particles;
   for (int k = 0; k < p.size(); ++k)
@@ -89,6 +90,13 @@ void Relaxation::step(Clock& clock, bool measure)
       });
   advance(model_, clock.time(), clock.dt);
   ++clock.step;
+}
+
+void Relaxation::check(const Clock& clock)
+{
+  check_particles(*model_.main, model_.reference_volume);
+  model_.for_each_domain([](Domain& domain, const std::string&) { note_gravity(domain); });
+  energy_.check(clock.time());
 }
 
 bool Relaxation::converged(const Clock& clock)
@@ -152,7 +160,7 @@ int Relaxation::run(Clock& clock)
     const bool measure = (clock.step + 1) % check_every == 0;
     step(clock, measure);
     if (measure) done = converged(clock);
-    if (clock.step % 100 == 0) check_particles(*model_.main, model_.reference_volume);
+    if (clock.step % 100 == 0) check(clock);
     if (progress.due()) progress.update(moment());
     if (!done && (session_.must_stop() || session_.checkpoint_due()))
     {
@@ -167,12 +175,14 @@ int Relaxation::run(Clock& clock)
   }
   progress.finish(moment());
   report(clock);
+  energy_.report();
   const auto [area, strain] = yielded(*model_.main);
   const nlohmann::json measures{{"unbalanced", unbalanced_},
                                 {"kinetic", kinetic_},
                                 {"greatest_speed", greatest_speed(*model_.main)},
                                 {"yielded_area", area},
-                                {"greatest_plastic_strain", strain}};
+                                {"greatest_plastic_strain", strain},
+                                {"energy", energy_.summary()}};
   if (!done)
   {
     session_.log.error(

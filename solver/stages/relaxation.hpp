@@ -1,6 +1,6 @@
 #pragma once
 
-#include "solver/stages/session.hpp"
+#include "solver/stages/energy_watch.hpp"
 
 namespace mpm
 {
@@ -10,6 +10,8 @@ class Relaxation
 {
 public:
   Relaxation(Session& session, Model& model);
+  /// Opens the energy ledgers: at the first step, not after a restart.
+  void start() { energy_.open(); }
   void load(const h5::File& file);
   /// Steps until the case's criteria hold; returns the exit code. Writes final.h5 on success.
   int run(Clock& clock);
@@ -21,6 +23,7 @@ private:
     plastic, ///< the laws may yield
   };
   void step(Clock& clock, bool measure);
+  void check(const Clock& clock);
   bool converged(const Clock& clock);
   void report(const Clock& clock);
   void save(const std::string& name, const Clock& clock);
@@ -29,6 +32,7 @@ private:
 
   Session& session_;
   Model& model_;
+  EnergyWatch energy_;
   Phase phase_ = Phase::elastic;
   double weight_ = 0; ///< potential energy scale, J per m
   double unbalanced_ = 1, kinetic_ = 1;

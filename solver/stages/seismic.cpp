@@ -6,6 +6,7 @@
 
 #include "io/checkpoint.hpp"
 #include "solver/mpm/parallel.hpp"
+#include "solver/stages/energy_watch.hpp"
 #include "solver/stages/motion.hpp"
 #include "solver/stages/observer.hpp"
 #include "solver/stages/predict.hpp"
@@ -95,7 +96,8 @@ class Shaking
 {
 public:
   Shaking(Session& session, Model& model, const Motion& motion)
-      : session_(session), model_(model), motion_(motion), observer_(session, model, *motion.wave)
+      : session_(session), model_(model), motion_(motion), observer_(session, model, *motion.wave),
+        energy_(session, model)
   {
   }
 
@@ -103,6 +105,7 @@ public:
   {
     observer_.place_gauges();
     add_seismic_boundaries(model_, session_.scene, motion_.wave, false);
+    energy_.open();
     observer_.look(clock, true);
   }
 
@@ -150,6 +153,7 @@ private:
       if (clock.step % check_every == 0)
       {
         check_particles(*model_.main, model_.reference_volume);
+        energy_.check(clock.time());
         check_step(session_, model_, clock);
       }
       if (progress.due()) progress.update(moment());
@@ -165,6 +169,7 @@ private:
     progress.finish(moment());
     report_boundaries(session_, model_);
     save("final.h5", clock);
+    energy_.report();
     session_.folder->prune(0);
     session_.finish("seismic", exit_code::done, model_, clock, summary());
     return exit_code::done;
@@ -172,6 +177,7 @@ private:
 
   void save(const std::string& name, const Clock& clock)
   {
+    energy_.check(clock.time()); // the last checkpoint must be a good one
     session_.write_checkpoint(name, "seismic", model_, clock,
                               [&](h5::File& file)
                               {
@@ -187,6 +193,7 @@ private:
   nlohmann::json summary() const
   {
     nlohmann::json result = observer_.summary();
+    result["energy"] = energy_.summary();
     result["motion"] = motion_.title;
     result["resolution"] = resolution(session_.scene);
     for (const auto& [key, value] : motion_.identity) result["digests"][key] = value;
@@ -198,6 +205,7 @@ private:
   Model& model_;
   const Motion& motion_;
   Observer observer_;
+  EnergyWatch energy_;
 };
 
 int run_seismic(Session& session)

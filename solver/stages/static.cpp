@@ -44,6 +44,8 @@ int run_static(Session& session)
     load_model(*file, model, clock);
     relaxation.load(*file);
   }
+  else
+    relaxation.start();
 
   // 3. Gravity grows, the ground settles: elastic first, then plastic.
   return relaxation.run(clock);
