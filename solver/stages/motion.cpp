@@ -4,14 +4,11 @@
 #include "io/record_reader.hpp"
 
 #include <cmath>
-#include <numbers>
 
 namespace mpm
 {
 namespace
 {
-constexpr double end_taper = 0.5; // s, over which a motion fades that is ended before its record does
-
 struct Source
 {
   Record record;
@@ -24,20 +21,6 @@ Source read(const MotionSource& source)
     return {parse_record(built_in_motion, {.file = "built_in.AT2", .format = "peer"}),
             sha256(built_in_motion)};
   return {read_record(source.record), sha256_file(source.record.file)};
-}
-
-/// Ends a motion at `end` s: cosine fade of its velocity over the last half second.
-void fade_out(GroundMotion& motion, double end)
-{
-  for (std::size_t k = 0; k < motion.velocity.size(); ++k)
-  {
-    const double s = std::clamp((end - motion.dt * double(k)) / end_taper, 0.0, 1.0);
-    const double w = 0.5 - 0.5 * std::cos(std::numbers::pi * s);
-    const double slope =
-        s > 0 && s < 1 ? -0.5 * std::numbers::pi / end_taper * std::sin(std::numbers::pi * s) : 0;
-    motion.acceleration[k] = motion.acceleration[k] * w + motion.velocity[k] * slope;
-    motion.velocity[k] *= w;
-  }
 }
 
 void report(Session& session, const std::string& component, const Record& record, const GroundMotion& motion)
@@ -80,7 +63,6 @@ std::optional<GroundMotion> load(Session& session, const std::string& component,
   {
     throw Error(exit_code::bad_input, error.what());
   }
-  if (settings.end == MotionEnd::time) fade_out(result, settings.end_time);
   report(session, component, record, result);
   motion.identity.push_back(
       {"motion." + component,
@@ -95,14 +77,11 @@ std::optional<GroundMotion> load(Session& session, const std::string& component,
 Motion load_motion(Session& session)
 {
   const MotionSettings& settings = session.scene.seismic.motion;
-  if (settings.end == MotionEnd::self_driven)
-    throw Error(exit_code::bad_input, session.scene.path.string() +
-                                          ": seismic.motion.end: self_driven is not offered; "
-                                          "give a time, or never");
   Motion motion;
   motion.wave = std::make_shared<IncomingWave>();
   motion.wave->horizontal = load(session, "horizontal", settings.horizontal, session.options.motion, motion);
   motion.wave->vertical = load(session, "vertical", settings.vertical, session.options.vertical, motion);
+  if (settings.end == MotionEnd::time) motion.wave->fade.start = settings.end_time - Fade::length;
   if (session.options.scale != 1) motion.title += fmt::format(" x {}", session.options.scale);
   return motion;
 }

@@ -19,6 +19,7 @@ public:
   void load(const h5::File& file);
   /// Writes history.h5.
   void write() const;
+  const Slide& slide() const { return slide_; }
   /// Peaks for the summary.
   nlohmann::json summary() const;
 

@@ -10,6 +10,7 @@
 #include "solver/stages/motion.hpp"
 #include "solver/stages/observer.hpp"
 #include "solver/stages/predict.hpp"
+#include "solver/stages/self_driven.hpp"
 
 #include <cmath>
 
@@ -114,6 +115,8 @@ public:
     add_seismic_boundaries(model_, session_.scene, motion_.wave, true);
     load_model(file, model_, clock);
     observer_.load(file);
+    self_driven_.load(file.open_group("motion"));
+    fade_when_self_driven();
   }
 
   int run(Clock& clock)
@@ -150,6 +153,7 @@ private:
       advance(model_, clock.time(), clock.dt);
       ++clock.step;
       observer_.look(clock, false);
+      end_motion();
       if (clock.step % check_every == 0)
       {
         check_particles(*model_.main, model_.reference_volume);
@@ -168,11 +172,39 @@ private:
     }
     progress.finish(moment());
     report_boundaries(session_, model_);
+    report_end();
     save("final.h5", clock);
     energy_.report();
     session_.folder->prune(0);
     session_.finish("seismic", exit_code::done, model_, clock, summary());
     return exit_code::done;
+  }
+
+  bool ends_self_driven() const { return session_.scene.seismic.motion.end == MotionEnd::self_driven; }
+
+  /// Lets the motion fade from the sample on that shows a self-driven slide.
+  void end_motion()
+  {
+    const MovedGround& moved = observer_.slide().now();
+    const double time = observer_.slide().time();
+    if (!ends_self_driven() || !self_driven_.decide(moved, time)) return;
+    fade_when_self_driven();
+    session_.log.info(
+        "t = {:.2f} s: the slide is self-driven: {:.1f} m2 have moved more than {} m and advanced at "
+        "{} m/s or more for {} s (now {:.2f} m/s); the motion fades until t = {:.2f} s",
+        time, moved.area, Slide::moved, SelfDriven::least_speed, SelfDriven::hold, moved.advance(),
+        motion_.wave->fade.end());
+  }
+
+  void fade_when_self_driven()
+  {
+    if (!std::isnan(self_driven_.decided())) motion_.wave->fade.start = self_driven_.decided();
+  }
+
+  void report_end() const
+  {
+    if (ends_self_driven() && std::isnan(self_driven_.decided()))
+      session_.log.info("the slide never was self-driven: the whole motion was applied");
   }
 
   void save(const std::string& name, const Clock& clock)
@@ -185,6 +217,7 @@ private:
                                 h5::Group motion = file.create_group("motion");
                                 for (const auto& [key, value] : motion_.identity)
                                   motion.attribute(key, value);
+                                self_driven_.save(motion);
                               });
     observer_.write();
     session_.folder->prune(session_.scene.output.checkpoint.keep);
@@ -195,6 +228,8 @@ private:
     nlohmann::json result = observer_.summary();
     result["energy"] = energy_.summary();
     result["motion"] = motion_.title;
+    const double end = motion_.wave->fade.end();
+    result["motion_ended"] = std::isfinite(end) ? nlohmann::json(end) : nlohmann::json();
     result["resolution"] = resolution(session_.scene);
     for (const auto& [key, value] : motion_.identity) result["digests"][key] = value;
     if (!session_.options.from.empty()) result["digests"]["from"] = sha256_file(session_.options.from);
@@ -206,6 +241,7 @@ private:
   const Motion& motion_;
   Observer observer_;
   EnergyWatch energy_;
+  SelfDriven self_driven_;
 };
 
 int run_seismic(Session& session)

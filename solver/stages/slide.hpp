@@ -54,6 +54,7 @@ public:
   /// Measures the state at `time` (s) and records it in the row that has begun.
   void sample(History& history, double time);
   const MovedGround& now() const { return now_; }
+  double time() const { return time_; } ///< of the last sample, s
 
   /// When the slide began, s: `early` of the ground that has moved by now had left its place for good. NaN:
   /// none has moved.
@@ -79,7 +80,7 @@ private:
   const Model& model_;
   const Case& scene_;
   MovedGround now_;
-  double time_ = 0;               ///< of the last sample, s
+  double time_ = 0;
   std::vector<double> departure_; ///< by particle id: since when it is out of place, s; NaN: it is in place
   Peak area_, velocity_99_, velocity_point_;
   struct

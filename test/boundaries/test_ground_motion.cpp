@@ -1,3 +1,4 @@
+#include "boundaries/compliant_base.hpp"
 #include "boundaries/ground_motion.hpp"
 
 #include <catch2/catch.hpp>
@@ -286,4 +287,17 @@ TEST_CASE("names of settings go there and back, and within is not among them", "
   for (Baseline b : {Baseline::none, Baseline::linear, Baseline::quadratic, Baseline::cubic})
     CHECK(baseline_from(name_of(b)) == b);
   CHECK_FALSE(recorded_as_from("within"));
+}
+
+TEST_CASE("a wave that fades goes on unchanged until it does, and is at rest half a second later",
+          "[boundaries]")
+{
+  IncomingWave wave;
+  wave.horizontal = GroundMotion{1, {2, 2, 2, 2}, {0, 0, 0, 0}, {}};
+  wave.fade.start = 1.2;
+  CHECK(wave.velocity(1.2)[0] == 2);
+  CHECK(wave.velocity(1.2 + Fade::length / 2)[0] == Approx(1));
+  CHECK(wave.velocity(wave.fade.end())[0] == Approx(0).margin(1e-15));
+  CHECK(wave.velocity(2.9)[0] == 0);
+  CHECK(wave.velocity(2)[1] == 0);
 }

@@ -237,7 +237,7 @@ void collect(const h5::Group& group, const std::string& path, Contents& found)
 {
   for (const char* name :
        {"step", "time", "dt", "start_time", "start_step", "drift", "plastic", "held", "unbalanced", "kinetic",
-        "begin", "end", "gauge_time", "trigger_time"})
+        "begin", "end", "gauge_time", "trigger_time", "since", "decided"})
     if (group.has_attribute(name)) found[path + "@" + name] = bytes(group.attribute_doubles(name));
   for (const std::string& name : group.children())
   {

@@ -1,0 +1,52 @@
+#include "solver/stages/self_driven.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace mpm;
+
+namespace
+{
+/// 20 m2 that have moved 2 m to the right and go on at `speed` m/s.
+MovedGround moving(double speed, double area = 20)
+{
+  MovedGround moved;
+  moved.area = area;
+  moved.displacement = {2, 0};
+  moved.velocity = {speed, 0};
+  return moved;
+}
+} // namespace
+
+TEST_CASE("a slide that advances for a second without a break is self-driven", "[stages]")
+{
+  SelfDriven end;
+  for (int k = 0; k < 10; ++k) CHECK_FALSE(end.decide(moving(0.3), 4 + 0.1 * k));
+  CHECK(end.decide(moving(0.3), 5.0));
+  CHECK(end.decided() == 5.0);
+  CHECK_FALSE(end.decide(moving(0), 5.1)); // it stays decided
+  CHECK(end.decided() == 5.0);
+}
+
+TEST_CASE("a mass that shaking moves to and fro, or that is small, is not self-driven", "[stages]")
+{
+  SelfDriven shaken, uphill, small;
+  for (int k = 0; k < 200; ++k)
+  {
+    const double t = 0.1 * k;
+    // Above the threshold for 0.87 s of each period of 1.57 s.
+    CHECK_FALSE(shaken.decide(moving(0.6 * std::sin(4 * t) + 0.2), t));
+    CHECK_FALSE(uphill.decide(moving(-0.5), t));
+    CHECK_FALSE(small.decide(moving(1, 5), t));
+  }
+}
+
+TEST_CASE("the decision goes on across a restart", "[stages]")
+{
+  SelfDriven first, second;
+  first.decide(moving(1), 3.0);
+  h5::File file = h5::File::in_memory("end");
+  h5::Group group = file.create_group("motion");
+  first.save(group);
+  second.load(group);
+  CHECK(second.decide(moving(1), 4.0));
+}
