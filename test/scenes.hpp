@@ -61,7 +61,8 @@ inline Elastic elastic(double young = 1e6, double poisson = 0.3, double density 
   return law;
 }
 
-inline VonMises von_mises(double peak, double residual, double strain, double young = 1e6, double poisson = 0.3)
+inline VonMises von_mises(double peak, double residual, double strain, double young = 1e6,
+                          double poisson = 0.3)
 {
   VonMises law;
   law.density = 2000;
@@ -73,9 +74,10 @@ inline VonMises von_mises(double peak, double residual, double strain, double yo
   return law;
 }
 
-/// A domain of bodies, one material each, at rest and free of stress. `scatter` moves the particles at random by up
-/// to so many of their distances.
-inline Domain make_domain(const std::vector<Body>& bodies, double spacing = 1, double scatter = 0, unsigned seed = 1)
+/// A domain of bodies, one material each, at rest and free of stress. `scatter` moves the particles at random
+/// by up to so many of their distances.
+inline Domain make_domain(const std::vector<Body>& bodies, double spacing = 1, double scatter = 0,
+                          unsigned seed = 1)
 {
   Domain domain;
   domain.name = "test";
@@ -138,6 +140,21 @@ inline void set_velocity(Domain& domain, double vx, double vy)
   domain.particles.velocity_y.assign(domain.particles.size(), vy);
 }
 
+/// A body in the corner of the grid lines x = -3 and y = 5, growing to the given sides, with everything
+/// random.
+inline Domain random_corner(double h, int to_x, int to_y)
+{
+  const double x = -3 * h, y = 5 * h, width = 9 * h, height = 7 * h;
+  const Rectangle place{to_x > 0 ? x : x - width, to_y > 0 ? y : y - height, width, height};
+  Domain domain = make_domain({{elastic(), place, h / 2}}, h, 0.49, 71);
+  random_velocities(domain, 2, 72);
+  random_affine(domain, 3, 73);
+  random_stress(domain, 1e5, 74);
+  domain.gravity_x = 1.3;
+  domain.gravity_y = -9.81;
+  return domain;
+}
+
 /// Steps so often, with the clock k dt.
 inline void run(Domain& domain, int steps, double dt)
 {
@@ -176,7 +193,8 @@ inline bool identical(const Domain& a, const Domain& b)
   for (const ParticleField& field : particle_fields)
     for (int c = 0; c < field.components; ++c)
       same = same && a.particles.*field.data[c] == b.particles.*field.data[c];
-  for (std::size_t m = 0; m < a.materials.size(); ++m) same = same && a.materials[m].state == b.materials[m].state;
+  for (std::size_t m = 0; m < a.materials.size(); ++m)
+    same = same && a.materials[m].state == b.materials[m].state;
   return same;
 }
 

@@ -43,9 +43,9 @@ def table(columns, remark):
     return "\n".join(lines) + "\n"
 
 
-def pulse_record():
-    t = np.arange(0, LENGTH + 1e-9, LENGTH / 400)
-    return "".join(f"{a:.15g} {b:.15g}\n" for a, b in zip(t, pulse(t)))
+def pulse_record(length=LENGTH):
+    t = np.arange(0, length + 1e-9, length / 400)
+    return "".join(f"{a:.15g} {b:.15g}\n" for a, b in zip(t, pulse(t * (LENGTH / length))))
 
 
 def uniform_column():
@@ -86,8 +86,58 @@ def self_weight():
                  "stress in Pa and settlement in m over the undeformed height in m")
 
 
+def free_vibration():
+    return table({"period": [4 * 20.0 / shear_speed(ROCK)]}, "fundamental period in s")
+
+
+def manufactured():
+    """Along Y = 0.25 m at the end; amplitude 0.05 m, E = 10 MPa, nu = 0.3, rho = 1000 kg/m3."""
+    amplitude, end, density, young, poisson, Y = 0.05, 0.0125, 1000.0, 1e7, 0.3, 0.25
+    omega = np.pi * np.sqrt(young / density)
+    shear = young / (2 * (1 + poisson))
+    lame = young * poisson / ((1 + poisson) * (1 - 2 * poisson))
+    X = np.linspace(0, 1, 41)
+    F_xx = 1 + amplitude * np.pi * np.cos(np.pi * X) * np.sin(omega * end)
+    F_yy = 1 - amplitude * np.pi * np.cos(np.pi * Y) * np.sin(omega * end)
+    return table({"X": X, "velocity_x": amplitude * omega * np.sin(np.pi * X) * np.cos(omega * end),
+                  "stress_xx": lame * np.log(F_xx * F_yy) + 2 * shear * np.log(F_xx)},
+                 "velocity in m/s and stress in Pa over X in m, at Y = 0.25 m and t = 0.0125 s")
+
+
+def vortex():
+    """Body force from the balance of momentum, with the stress differentiated numerically."""
+    amplitude, period, density, shear, t = 0.15, 1.0, 1000.0, 1e4 / 2.6, 0.3
+    turn = amplitude * (1 - np.cos(2 * np.pi * t / period)) / 2
+    rate = amplitude * np.pi / period * np.sin(2 * np.pi * t / period)
+    acceleration = 2 * amplitude * (np.pi / period) ** 2 * np.cos(2 * np.pi * t / period)
+
+    def shape(R):
+        return 1 - 32 * (R - 1) ** 2 + 256 * (R - 1) ** 4
+
+    def stress(R):
+        step = 1e-3
+        gamma = R * turn * (8 * (shape(R + step) - shape(R - step)) - shape(R + 2 * step) + shape(R - 2 * step)) \
+            / (12 * step)  # exact for a quartic
+        return -shear * (1 - np.cos(gamma)), shear * np.sin(gamma)
+
+    def slope(component, R, step=1e-3):
+        f = [stress(R + k * step)[component] for k in (-3, -2, -1, 1, 2, 3)]
+        return (-f[0] + 9 * f[1] - 45 * f[2] + 45 * f[3] - 9 * f[4] + f[5]) / (60 * step)
+
+    R = np.linspace(0.76, 1.24, 25)
+    rr, rt = stress(R)
+    return table({"time": np.full_like(R, t), "R": R, "angle": shape(R) * turn, "stress_rr": rr, "stress_rt": rt,
+                  "acceleration_r": -R * (shape(R) * rate) ** 2 - (slope(0, R) + 2 * rr / R) / density,
+                  "acceleration_t": R * shape(R) * acceleration - (slope(1, R) + 2 * rt / R) / density},
+                 "angle in rad, stress in Pa and body acceleration in m/s2 over R in m, at t = 0.3 s")
+
+
 REFERENCES = {
     "pulse.txt": pulse_record,
+    "level_site/pulse.txt": lambda: pulse_record(0.25),
+    "free_vibration/reference.csv": free_vibration,
+    "manufactured/reference.csv": manufactured,
+    "vortex/reference.csv": vortex,
     "uniform_column/reference.csv": uniform_column,
     "layer/reference.csv": lambda: amplification([(10.0, SOIL)], shear_speed),
     "layer_p/reference.csv": lambda: amplification([(10.0, SOIL)], pressure_speed),

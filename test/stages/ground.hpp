@@ -68,4 +68,40 @@ inline double stable_step(const Case& scene, const Model& model)
 {
   return scene.safety * scene.grid.spacing / greatest_wave_speed(*model.main);
 }
+
+/// K0 stress of level ground under gravity, exact to the particles' own spacing.
+inline void settle_at_once(Model& model, const Case& scene)
+{
+  model.for_each_domain(
+      [&](Domain& domain, const std::string&)
+      {
+        Particles& p = domain.particles;
+        for (std::size_t m = 0; m < domain.materials.size(); ++m)
+          for (int k = domain.material_begin[m]; k < domain.material_begin[m + 1]; ++k)
+          {
+            const double rock = scene.surfaces[0].height(0), top = scene.ground_height(0),
+                         g = scene.statics.gravity;
+            const double soil = 1800 * g * (top - std::max(p.y[k], rock)),
+                         rest = 2200 * g * std::max(0.0, rock - p.y[k]);
+            const double nu = domain.materials[m].elastic().poisson;
+            p.stress_yy[k] = -(soil + rest);
+            p.stress_xx[k] = p.stress_zz[k] = nu / (1 - nu) * p.stress_yy[k];
+          }
+      });
+}
+
+/// Lets the ground find its discrete equilibrium between walls.
+inline void relax(Model& model, const Case& scene, double duration, bool grow)
+{
+  add_static_boundaries(model, scene);
+  const double dt = stable_step(scene, model);
+  for (int k = 0; k * dt < duration; ++k)
+  {
+    const double s = grow ? std::min(1.0, 2 * k * dt / duration) : 1;
+    model.for_each_domain(
+        [&](Domain& domain, const std::string&)
+        { domain.gravity_y = -scene.statics.gravity * s * s * s * (10 + s * (6 * s - 15)); });
+    advance(model, k * dt, dt);
+  }
+}
 } // namespace mpm::test

@@ -5,7 +5,14 @@
 
 namespace mpm::verification
 {
+Findings run_kernel(const std::filesystem::path& folder, double spacing);
+Findings run_transfer(const std::filesystem::path& folder, double spacing);
+Findings run_mirrored_wall(const std::filesystem::path& folder, double spacing);
+Findings run_manufactured(const std::filesystem::path& folder, double spacing);
+Findings run_vortex(const std::filesystem::path& folder, double spacing);
 Findings run_self_weight(const std::filesystem::path& folder, double spacing);
+Findings run_free_vibration(const std::filesystem::path& folder, double spacing);
+Findings run_level_site(const std::filesystem::path& folder, double spacing);
 Findings run_uniform_column(const std::filesystem::path& folder, double spacing);
 /// Amplification of layered ground: cases layer, layer_p, two_layers.
 Findings run_site(const std::filesystem::path& folder, double spacing);

@@ -44,6 +44,7 @@ Measure read_measure(const YamlNode& node, const Ladder& ladder, Problems& probl
   Measure measure;
   measure.name = node.key;
   measure.norm = section.text("norm");
+  measure.order_down_to = section.number_or(0, "order_down_to", Dimension::none);
   read_bounds(section, "", ladder, measure, problems);
   read_bounds(section, "_after_measurement", ladder, measure, problems);
   return measure;
@@ -117,7 +118,9 @@ Result climb(const LadderCase& ladder_case, const Ladder& ladder, std::span<cons
       if (k > 0)
         row.order = std::log(found[k - 1].errors.at(measure.name) / row.error) /
                     std::log(resolutions[k - 1] / resolutions[k]);
-      if (k > 0 && k + 1 == resolutions.size()) row.least_order = measure.order;
+      const auto counts = [&](std::size_t at)
+      { return at < resolutions.size() && resolutions[at] >= measure.order_down_to; };
+      if (k > 0 && counts(k) && !counts(k + 1)) row.least_order = measure.order;
       result.rows.push_back(row);
     }
   return result;

@@ -57,7 +57,8 @@ struct Measure
   std::string name;
   std::string norm;               ///< in words
   std::map<double, Bound> bounds; ///< greatest error, by resolution
-  std::optional<Bound> order;     ///< least observed order between the two finest resolutions run
+  std::optional<Bound> order;     ///< least observed order between the two finest resolutions run,
+  double order_down_to = 0;       ///< but none finer than this
 };
 
 /// ladder.yaml of a case.

@@ -42,10 +42,12 @@ void write_table(const std::filesystem::path& folder, const std::vector<Result>&
   std::ofstream file = open(folder, "RESULTS.md");
   file << "# Results of the verification ladder\n\n"
           "Written by `scripts/verify`. Closed forms, norms and the reasons of the bounds stand in each "
-          "case's\n"
-          "README. An order is observed between a row and the one above it; where an order is asked for, it "
-          "is\n"
-          "asked of the finest pair. Bounds marked * were set after the measurement.\n\n"
+          "case's README. An\n"
+          "order is observed between a row and the one above it; where an order is asked for, it is asked of "
+          "the finest\n"
+          "pair, or of the finest above a floor that the README explains. Numbers marked * were set after "
+          "the measurement.\n"
+          "\n"
           "| case | measure | resolution | error | order | bound | pass |\n"
           "| --- | --- | --- | --- | --- | --- | --- |\n";
   for (const Result& result : results)
