@@ -132,7 +132,7 @@ def carried(summary):
     lines = [f"cells of {resolution['spacing']:g} m, {resolution['particles_per_cell']} x "
              f"{resolution['particles_per_cell']} particles each, {summary['particles']} particles, {summary['steps']} "
              f"steps of {1e3 * summary['dt']:.3g} ms"]
-    lines += [f"{name}: S waves ({m['shear_speed']:.0f} m/s) within 1 % of their speed up to {m['frequency']:.1f} Hz"
+    lines += [f"{name}: S waves ({m['S']['speed']:.0f} m/s) carried within 1 % up to {m['S']['carried_to']:.1f} Hz"
               for name, m in resolution.get("materials", {}).items()]
     lines += [f"ended with {summary['exit']} after {summary['wall_seconds']:.0f} s on {summary['threads']} threads",
               f"seismpm {summary['version']} ({summary['git']}), case {summary['case_sha256'][:12]}"

@@ -6,43 +6,13 @@ namespace mpm
 {
 namespace
 {
-constexpr double cells_per_wavelength = 26; // for 1 % phase error with cubic splines and lumped mass
 constexpr int probe_steps = 50;
 constexpr double bytes_per_particle = 160; // 19 doubles and ids
 constexpr double bytes_per_node = 72;
-
-/// Up to which S waves travel within 1 % of their speed, Hz.
-double resolved_frequency(const Case& scene, const Material& material)
-{
-  return material.elastic().shear_speed() / (cells_per_wavelength * scene.grid.spacing);
-}
 } // namespace
-
-void log_wave_fidelity(Session& session)
-{
-  for (const Material& material : session.scene.materials)
-  {
-    const Elastic& e = material.elastic();
-    session.log.info("{}: density {} kg/m3, c_s {:.1f} m/s, c_p {:.1f} m/s; S waves within 1 % of their "
-                     "speed up to {:.1f} Hz",
-                     material.name, e.density, e.shear_speed(), e.pressure_speed(),
-                     resolved_frequency(session.scene, material));
-  }
-}
-
-nlohmann::json resolution(const Case& scene)
-{
-  nlohmann::json result{{"spacing", scene.grid.spacing},
-                        {"particles_per_cell", scene.grid.particles_per_cell}};
-  for (const Material& material : scene.materials)
-    result["materials"][material.name] = {{"shear_speed", material.elastic().shear_speed()},
-                                          {"frequency", resolved_frequency(scene, material)}};
-  return result;
-}
 
 int predict(Session& session, Model& model, const Clock& clock, double duration)
 {
-  log_wave_fidelity(session);
   using Wall = std::chrono::steady_clock;
   advance(model, 0, clock.dt);
   const auto start = Wall::now();

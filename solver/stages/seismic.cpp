@@ -7,6 +7,7 @@
 #include "io/checkpoint.hpp"
 #include "solver/mpm/parallel.hpp"
 #include "solver/stages/energy_watch.hpp"
+#include "solver/stages/fidelity.hpp"
 #include "solver/stages/motion.hpp"
 #include "solver/stages/observer.hpp"
 #include "solver/stages/predict.hpp"
@@ -64,7 +65,8 @@ void check_step(Session& session, const Model& model, Clock& clock)
   if (clock.dt * speed <= courant_limit * h) return;
   clock.change_step(clock.dt / 2);
   session.log.warn(
-      "t = {:.3f} s: the ground has loosened to a wave speed of {:.0f} m/s; the step is halved to {:.3e} s",
+      "t = {:.3f} s: the ground has loosened to a wave speed of {:.0f} m/s; the step is halved to {:.3e} s, "
+      "which doubles the numerical damping of waves",
       clock.time(), speed, clock.dt);
 }
 
@@ -144,7 +146,7 @@ private:
       return Moment{clock.time(), clock.time() / duration, clock.step, kinetic_energy(*model_.main),
                     greatest_speed(*model_.main)};
     };
-    log_wave_fidelity(session_);
+    report_wave_fidelity(session_, clock.dt, motion_.wave.get());
     session_.log.info("seismic stage: {} particles, dt = {:.3e} s, {} s", model_.main->particles.size(),
                       clock.dt, duration);
     session_.loop_begins(clock.step);
@@ -230,7 +232,6 @@ private:
     result["motion"] = motion_.title;
     const double end = motion_.wave->fade.end();
     result["motion_ended"] = std::isfinite(end) ? nlohmann::json(end) : nlohmann::json();
-    result["resolution"] = resolution(session_.scene);
     for (const auto& [key, value] : motion_.identity) result["digests"][key] = value;
     if (!session_.options.from.empty()) result["digests"]["from"] = sha256_file(session_.options.from);
     return result;
@@ -267,7 +268,11 @@ int run_seismic(Session& session)
   Model model = make_model(scene);
   Clock clock;
   clock.dt = choose_step(scene, *model.main);
-  if (options.check) return predict(session, model, clock, scene.seismic.duration);
+  if (options.check)
+  {
+    report_wave_fidelity(session, clock.dt, motion.wave.get());
+    return predict(session, model, clock, scene.seismic.duration);
+  }
   if (options.from.empty())
     session.log.info("no gravity: starts from a stress-free state");
   else

@@ -209,6 +209,7 @@ void Session::finish(std::string_view stage, int exit, const Model& model, const
       {"git", SEISMPM_GIT},
       {"build", SEISMPM_BUILD},
       {"command", options.command}};
+  summary.update(facts);
   summary.update(more);
   write_text_atomically(*folder / "summary.json", summary.dump(2) + "\n");
   log.info("{} ends with {} after {}: {} steps, {:.1f} ns per particle-step and core", stage, exit,

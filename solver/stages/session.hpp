@@ -75,6 +75,7 @@ public:
   Log log;
   Case scene;
   std::unique_ptr<RunFolder> folder;
+  nlohmann::json facts = nlohmann::json::object(); ///< what was found out before the run, for the summary
 
 private:
   using Wall = std::chrono::steady_clock;

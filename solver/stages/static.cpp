@@ -4,6 +4,7 @@
 //   mpm-static cases/slope/case.yaml --out run/static      goes on after an interruption
 //   mpm-static cases/slope/case.yaml --check               says what it would cost
 
+#include "solver/stages/fidelity.hpp"
 #include "solver/stages/predict.hpp"
 #include "solver/stages/relaxation.hpp"
 
@@ -23,7 +24,11 @@ int run_static(Session& session)
   add_static_boundaries(model, scene);
   Clock clock;
   clock.dt = scene.safety * scene.grid.spacing / greatest_wave_speed(*model.main);
-  if (session.options.check) return predict(session, model, clock, scene.statics.ramp);
+  if (session.options.check)
+  {
+    report_wave_fidelity(session, clock.dt, nullptr);
+    return predict(session, model, clock, scene.statics.ramp);
+  }
 
   // 2. The folder: ours, finished, or to be gone on with.
   RunFolder::Identity identity{{"stage", "static"}};
@@ -46,6 +51,8 @@ int run_static(Session& session)
   }
   else
     relaxation.start();
+
+  report_wave_fidelity(session, clock.dt, nullptr);
 
   // 3. Gravity grows, the ground settles: elastic first, then plastic.
   return relaxation.run(clock);

@@ -12,6 +12,7 @@
 #include <fcntl.h>
 #include <functional>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <numbers>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -762,7 +763,34 @@ TEST_CASE("the option --check tells the cost, runs and writes nothing, and exits
       bench.run("mpm-seismic", {bench.path("case.yaml"), "--from", bench.path("static/final.h5"), "--out",
                                 bench.path("out"), "--check"});
   CHECK(seismic.code == 0);
+  CHECK_THAT(seismic.said, Contains("carried to") && Contains("Arias"));
   CHECK_FALSE(fs::exists(bench / "out"));
+}
+
+TEST_CASE("a run tells what it carries of the motion, warns of what it loses, and of a small step",
+          "[stages]")
+{
+  const Bench bench;
+  const auto summary_of = [&](const std::string& out, std::vector<std::string> more)
+  {
+    more.insert(more.end(), {"--set", "seismic.duration=0.1 s", "--set", "static.gravity=0 m/s2"});
+    std::vector<std::string> arguments{bench.path("case.yaml"), "--out", bench.path(out)};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    REQUIRE(bench.run("mpm-seismic", arguments).code == 0);
+    return nlohmann::json::parse(contents(bench / out / "summary.json"));
+  };
+  const auto usual = summary_of("usual", {}),
+             small = summary_of("small", {"--set", "time_step.safety=0.125"});
+  const auto waves = [](const nlohmann::json& summary) { return summary["resolution"]["materials"]["clay"]["S"]; };
+  CHECK(waves(usual)["carried_to"] ==
+        std::min(waves(usual)["phase_limit"].get<double>(), waves(usual)["damping_limit"].get<double>()));
+  CHECK(waves(usual).contains("arias_share_above"));
+  CHECK(waves(small)["damping_limit"].get<double>() < waves(usual)["damping_limit"].get<double>());
+  CHECK(waves(small)["arias_share_above"].get<double>() >= waves(usual)["arias_share_above"].get<double>());
+  CHECK_THAT(usual["warnings"].dump(), !Contains("time_step.safety"));
+  CHECK_THAT(small["warnings"].dump(), Contains("time_step.safety"));
+  const auto coarse = summary_of("coarse", {"--set", "materials.clay.young_modulus=1 MPa"});
+  CHECK_THAT(coarse["warnings"].dump(), Contains("Arias"));
 }
 
 TEST_CASE("a case without gravity starts without a static state and says so", "[stages]")

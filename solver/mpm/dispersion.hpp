@@ -1,0 +1,55 @@
+#pragma once
+// What the grid and the steps do to a plane wave: cubic B-splines, lumped mass, affine transfer, two or more
+// particles per cell and direction. All from the growth factor z of a mode of wave number k,
+// z^2 - (G + 1 - dt^2 w^2) z + G = 0 (METHODS section 7), for k h << 1.
+
+#include <cmath>
+#include <numbers>
+
+namespace mpm
+{
+/// Cell size h in m, time step in s and the share of FLIP in the velocity update (0: affine transfer alone).
+struct Resolution
+{
+  double spacing;
+  double dt;
+  double flip_blend = 0;
+};
+
+/// The affine transfer leaves G = 1 - a (k h)^4 of a mode's velocity each step.
+inline constexpr double transfer_loss = 0.0471;
+
+/// Wave number times cell size of a wave of `speed` (m/s) and `frequency` (Hz).
+inline double wave_number_cells(const Resolution& r, double speed, double frequency)
+{
+  return 2 * std::numbers::pi * frequency * r.spacing / speed;
+}
+
+/// Share by which the wave is too slow: (k h)^2 (1/6 - C^2/24), C = dt speed / h. The first part is the
+/// smoothing of the lumped mass and force, w = c k sinc^4(k h / 2); the second the lead of symplectic Euler.
+inline double phase_error(const Resolution& r, double speed, double frequency)
+{
+  const double kh = wave_number_cells(r, speed, frequency), courant = r.dt * speed / r.spacing;
+  return kh * kh * (1.0 / 6 - courant * courant / 24);
+}
+
+/// Damping ratio that the transfer gives the wave: a (k h)^3 / (2 C), each step the same loss, so that half
+/// the step damps twice as much. FLIP keeps its share of the velocity out of the transfer.
+inline double numerical_damping(const Resolution& r, double speed, double frequency)
+{
+  const double kh = wave_number_cells(r, speed, frequency), courant = r.dt * speed / r.spacing;
+  return (1 - r.flip_blend) * transfer_loss * kh * kh * kh / (2 * courant);
+}
+
+/// Frequency in Hz up to which the phase error is at most `share`.
+inline double phase_limit(const Resolution& r, double speed, double share)
+{
+  return std::sqrt(share / phase_error(r, speed, 1));
+}
+
+/// Frequency in Hz up to which the numerical damping is at most `ratio`; infinite with FLIP alone.
+inline double damping_limit(const Resolution& r, double speed, double ratio)
+{
+  return std::cbrt(ratio / numerical_damping(r, speed, 1));
+}
+} // namespace mpm

@@ -1,0 +1,78 @@
+#include "solver/stages/fidelity.hpp"
+
+#include "boundaries/motion_spectrum.hpp"
+#include "solver/mpm/dispersion.hpp"
+
+#include <algorithm>
+
+namespace mpm
+{
+namespace
+{
+constexpr double tolerance = 0.01; // of the speed, and as damping ratio
+constexpr double much = 0.10;      // of the Arias intensity: the scatter that engineers accept in it
+constexpr double usual_courant = 0.5;
+
+/// A kind of wave and the component of the motion that sends it up.
+struct Kind
+{
+  const char* name;
+  const char* component;
+  double (Elastic::*speed)() const;
+  std::optional<GroundMotion> IncomingWave::*motion;
+};
+constexpr std::array kinds{Kind{"S", "horizontal", &Elastic::shear_speed, &IncomingWave::horizontal},
+                           Kind{"P", "vertical", &Elastic::pressure_speed, &IncomingWave::vertical}};
+
+void report_share(Session& session, const Material& material, const Kind& kind, double limit,
+                  const MotionSpectrum& spectrum, nlohmann::json& facts)
+{
+  const double share = spectrum.share_above(limit);
+  facts["arias_share_above"] = share;
+  if (share <= much)
+    return session.log.info("{}: {:.2g} % of the {} motion's Arias intensity lies above that", material.name,
+                            100 * share, kind.component);
+  // Both limits go with 1 / h as long as the Courant number stays.
+  const double fine = session.scene.grid.spacing * limit / spectrum.frequency_with_above(much);
+  session.log.warn(
+      "{}: {:.0f} % of the {} motion's Arias intensity lies above {:.1f} Hz, more than {:.0f} %: the "
+      "grid delays and damps these {} waves; cells of {:.2g} m would carry all but {:.0f} %",
+      material.name, 100 * share, kind.component, limit, 100 * much, kind.name, fine, 100 * much);
+}
+} // namespace
+
+void report_wave_fidelity(Session& session, double dt, const IncomingWave* wave)
+{
+  const Resolution resolution{session.scene.grid.spacing, dt};
+  const GridSettings& grid = session.scene.grid;
+  nlohmann::json& facts = session.facts["resolution"];
+  facts = {{"spacing", grid.spacing}, {"particles_per_cell", grid.particles_per_cell}};
+  std::array<std::optional<MotionSpectrum>, kinds.size()> spectra;
+  for (std::size_t k = 0; wave && k < kinds.size(); ++k)
+    if (const auto& motion = wave->*kinds[k].motion) spectra[k].emplace(*motion);
+  for (const Material& material : session.scene.materials)
+  {
+    const Elastic& e = material.elastic();
+    session.log.info("{}: density {} kg/m3, c_s {:.1f} m/s, c_p {:.1f} m/s", material.name, e.density,
+                     e.shear_speed(), e.pressure_speed());
+    for (std::size_t k = 0; k < kinds.size(); ++k)
+    {
+      const double speed = (e.*kinds[k].speed)();
+      const double phase = phase_limit(resolution, speed, tolerance),
+                   damping = damping_limit(resolution, speed, tolerance), limit = std::min(phase, damping);
+      session.log.info(
+          "{}: {} waves within {:.0f} % of their speed to {:.1f} Hz, less than {:.0f} % numerical "
+          "damping to {:.1f} Hz: carried to {:.1f} Hz",
+          material.name, kinds[k].name, 100 * tolerance, phase, 100 * tolerance, damping, limit);
+      nlohmann::json& found = facts["materials"][material.name][kinds[k].name];
+      found = {{"speed", speed}, {"phase_limit", phase}, {"damping_limit", damping}, {"carried_to", limit}};
+      if (spectra[k]) report_share(session, material, kinds[k], limit, *spectra[k], found);
+    }
+  }
+  if (session.scene.safety < usual_courant)
+    session.log.warn(
+        "time_step.safety: {} is below {}: waves lose the same in every step, so that numerical damping "
+        "is {:.2g} times that of {}; a smaller step is not a more accurate one",
+        session.scene.safety, usual_courant, usual_courant / session.scene.safety, usual_courant);
+}
+} // namespace mpm
