@@ -97,52 +97,100 @@ void ImageBlocks::bind(const Domain& domain, const std::vector<Image>& images)
   }
 }
 
-std::array<double, 2> ImageBlocks::scatter(Domain& domain, ImageHome& home, const std::vector<Image>& images,
-                                           const Extra& extra) const
+namespace
 {
-  Tile &force_x = home.force_x, &force_y = home.force_y, mass;
-  for (Tile* tile : {&force_x, &force_y, &mass}) tile->value.fill(0);
-  const TileStencils stencils(domain.grid, home.block);
-  const Particles& p = domain.particles;
-  for (int k = home.begin; k < home.end; ++k)
+/// Acceleration of the ghosts' mass by row of a block's tile, m/s2.
+using RowAccelerations = std::array<std::array<double, 2>, tile_nodes>;
+
+RowAccelerations accelerations(BlockIndex block, const ImageBlocks::Extra& extra)
+{
+  RowAccelerations result{};
+  const int first = block.y * block_cells - tile_margin - extra.first_row;
+  for (int row = 0; row < tile_nodes; ++row)
+    if (first + row >= 0 && first + row < static_cast<int>(extra.acceleration.size()))
+      result[row] = extra.acceleration[first + row];
+  return result;
+}
+
+/// What the images of a chunk bring to the nodes: stress column by column and weight, as vectors (x, y).
+struct ImageSources
+{
+  double x[chunk_size], y[chunk_size], mass[chunk_size];
+  double stress_x[chunk_size][2], stress_y[chunk_size][2], weight[chunk_size][2];
+
+  void take(int k, const Domain& domain, const Image& image, const Eigen::Matrix2d* extra)
   {
-    const Image& image = images[order_[k]];
     const int parent = domain.place[image.parent];
-    const auto x = stencils.x(p.x[parent] + image.offset.x()), y = stencils.y(p.y[parent] + image.offset.y());
+    x[k] = domain.particles.x[parent] + image.offset.x();
+    y[k] = domain.particles.y[parent] + image.offset.y();
+    mass[k] = image.mass;
     Eigen::Matrix2d stress = image.stress;
-    if (!extra.stress.empty()) stress += extra.stress[order_[k]];
-    const int first = TileStencils::first_node(x, y);
-    const Row fx_w = image.weight.x() * x.weight - stress(0, 0) * x.slope, fx_dw = -stress(0, 1) * x.weight;
-    const Row fy_w = image.weight.y() * x.weight - stress(1, 0) * x.slope, fy_dw = -stress(1, 1) * x.weight;
-    for (int j = 0; j < 4; ++j)
+    if (extra) stress += *extra;
+    for (int c = 0; c < 2; ++c)
     {
-      const auto add = [node = first + j * tile_stride](Tile& tile, const Row& row)
-      { store_row(&tile.value[node], load_row(&tile.value[node]) + row); };
-      add(force_x, y.weight[j] * fx_w + y.slope[j] * fx_dw);
-      add(force_y, y.weight[j] * fy_w + y.slope[j] * fy_dw);
-      add(mass, (y.weight[j] * image.mass) * x.weight);
+      stress_x[k][c] = -stress(c, 0);
+      stress_y[k][c] = -stress(c, 1);
+      weight[k][c] = image.weight[c];
     }
   }
-  Grid& g = domain.grid;
+
+  template <bool inertia>
+  void add(int k, const ChunkStencils& s, const RowAccelerations& a, PairTile& force) const
+  {
+    const Pairs w = twice(s.x_weight[k]), f_slope = w * everywhere(stress_y[k]);
+    const Pairs f_w = twice(s.x_slope[k]) * everywhere(stress_x[k]) + w * everywhere(weight[k]);
+    for (int j = 0; j < 4; ++j)
+    {
+      double* node = &force.value[2 * (s.node[k] + j * tile_stride)];
+      Pairs row = load_pairs(node) + s.y_weight[j][k] * f_w;
+      row += s.y_slope[j][k] * f_slope;
+      if constexpr (inertia)
+        row += (-mass[k] * s.y_weight[j][k]) * (w * everywhere(a[s.node[k] / tile_stride + j].data()));
+      store_pairs(node, row);
+    }
+  }
+};
+} // namespace
+
+void ImageBlocks::scatter(const Domain& domain, ImageHome& home, const std::vector<Image>& images,
+                          const Extra& extra) const
+{
+  home.force.value.fill(0);
+  const RowAccelerations a = accelerations(home.block, extra);
+  const TileStencils tile(domain.grid, home.block);
+  ChunkStencils stencils;
+  ImageSources from;
+  for (int begin = home.begin; begin < home.end; begin += chunk_size)
+  {
+    const int count = std::min(chunk_size, home.end - begin);
+    for (int k = 0; k < count; ++k)
+    {
+      const int image = order_[begin + k];
+      from.take(k, domain, images[image], extra.stress.empty() ? nullptr : &extra.stress[image]);
+    }
+    stencils.find(tile, from.x, from.y, count);
+    for (int k = 0; k < count; ++k)
+      if (extra.acceleration.empty())
+        from.add<false>(k, stencils, a, home.force);
+      else
+        from.add<true>(k, stencils, a, home.force);
+  }
+}
+
+std::array<double, 2> ImageBlocks::gather(Grid& g, const ImageHome& home) const
+{
   std::array<double, 2> sum{};
-  const int row_of_tile = home.block.y * block_cells - tile_margin - extra.first_row;
   for_each_run(g, home.around,
                [&](int node, int place, int count)
                {
-                 const int row = row_of_tile + place / tile_stride;
-                 std::array<double, 2> a{};
-                 if (row >= 0 && row < static_cast<int>(extra.acceleration.size()))
-                   a = extra.acceleration[row];
                  for (int k = 0; k < count; ++k)
                  {
+                   const double* force = &home.force.value[2 * (place + k)];
                    if (g.mass[node + k] <= 0) continue;
-                   double &fx = force_x.value[place + k], &fy = force_y.value[place + k];
-                   sum[0] += fx;
-                   sum[1] += fy;
-                   fx -= mass.value[place + k] * a[0];
-                   fy -= mass.value[place + k] * a[1];
-                   g.force_x[node + k] += fx;
-                   g.force_y[node + k] += fy;
+                   sum[0] += force[0];
+                   sum[1] += force[1];
+                   g.force_x[node + k] += force[0];
+                   g.force_y[node + k] += force[1];
                  }
                });
   return sum;
@@ -154,7 +202,12 @@ std::array<double, 2> ImageBlocks::add_forces(Domain& domain, const std::vector<
   std::vector<std::array<double, 2>> parts(homes_.size());
   for (const auto& colour : colours_)
     parallel::for_each(static_cast<int>(colour.size()),
-                       [&](int k) { parts[colour[k]] = scatter(domain, homes_[colour[k]], images, extra); });
+                       [&](int k)
+                       {
+                         ImageHome& home = homes_[colour[k]];
+                         scatter(domain, home, images, extra);
+                         parts[colour[k]] = gather(domain.grid, home);
+                       });
   std::array<double, 2> sum{};
   for (const auto& part : parts)
   {
@@ -179,8 +232,8 @@ double ImageBlocks::work(const Domain& domain, double dt) const
                                       for (int k = 0; k < count; ++k)
                                       {
                                         const auto [vx, vy] = g.middle_velocity(node + k);
-                                        power += home.force_x.value[place + k] * vx +
-                                                 home.force_y.value[place + k] * vy;
+                                        const double* force = &home.force.value[2 * (place + k)];
+                                        power += force[0] * vx + force[1] * vy;
                                       }
                                     });
                        parts[at] = dt * power;

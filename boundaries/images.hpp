@@ -57,10 +57,13 @@ private:
     BlockIndex block;
     Neighbours around;
     int begin, end;
-    Tile force_x, force_y; ///< of the last step, N per m
+    PairTile force; ///< of the last step, N per m
   };
-  std::array<double, 2> scatter(Domain& domain, ImageHome& home, const std::vector<Image>& images,
-                                const Extra& extra) const;
+  /// Forces of a home's images, into its tile.
+  void scatter(const Domain& domain, ImageHome& home, const std::vector<Image>& images,
+               const Extra& extra) const;
+  /// Adds a home's tile to the nodes that hold real mass, and returns the sum.
+  std::array<double, 2> gather(Grid& grid, const ImageHome& home) const;
   std::vector<int> order_;
   std::vector<ImageHome> homes_;
   std::array<std::vector<int>, 4> colours_;

@@ -57,19 +57,51 @@ void read(const ChunkStencils& s, int count, const PairTile& velocity, const Pai
   }
 }
 
+/// Change of the nodes' velocities over the step, v* - P/m.
+void read_change(const Grid& grid, const Neighbours& around, const PairTile& velocity, PairTile& change)
+{
+  change.value.fill(0);
+  for_each_run(grid, around,
+               [&](int node, int place, auto count)
+               {
+                 for (int k = 0; k < count; ++k)
+                 {
+                   const double m = grid.mass[node + k];
+                   if (m <= grid.smallest_mass) continue;
+                   change.value[2 * (place + k)] =
+                       velocity.value[2 * (place + k)] - grid.momentum_x[node + k] / m;
+                   change.value[2 * (place + k) + 1] =
+                       velocity.value[2 * (place + k) + 1] - grid.momentum_y[node + k] / m;
+                 }
+               });
+}
+
+/// The share `blend` of FLIP in the particles' velocities: v + blend (v_p + sum w (v* - P/m) - v), before v_p
+/// is replaced. Particles still move with v (METHODS section 1).
+void blend_velocity(const Particles& p, int begin, int count, double blend, Readings& from)
+{
+  for (int k = 0; k < count; ++k)
+  {
+    double &ux = from.change[k][0], &uy = from.change[k][1];
+    ux = from.velocity[k][0] + blend * (p.velocity_x[begin + k] + ux - from.velocity[k][0]);
+    uy = from.velocity[k][1] + blend * (p.velocity_y[begin + k] + uy - from.velocity[k][1]);
+  }
+}
+
 /// v = sum w v*, C = D^-1 sum w v* (x_i - x)^T (eq. 3), L = sum v* grad w; moves the particles with v.
-void apply(Particles& p, int begin, int count, const Readings& from, double spacing, double dt,
+void apply(Particles& p, int begin, int count, const Readings& from, double spacing, double dt, bool flip,
            VelocityGradients& L)
 {
   const double inverse_D = 3 / (spacing * spacing);
+  const auto* velocity = flip ? from.change : from.velocity;
   double* __restrict x = &p.x[begin], * __restrict y = &p.y[begin];
   double* __restrict vx = &p.velocity_x[begin], * __restrict vy = &p.velocity_y[begin];
   double* __restrict cxx = &p.affine_xx[begin], * __restrict cxy = &p.affine_xy[begin];
   double* __restrict cyx = &p.affine_yx[begin], * __restrict cyy = &p.affine_yy[begin];
   for (int k = 0; k < count; ++k)
   {
-    vx[k] = from.velocity[k][0];
-    vy[k] = from.velocity[k][1];
+    vx[k] = velocity[k][0];
+    vy[k] = velocity[k][1];
     x[k] += dt * from.velocity[k][0];
     y[k] += dt * from.velocity[k][1];
   }
@@ -112,8 +144,10 @@ double fastest(const double* __restrict vx, const double* __restrict vy, int cou
 double update_home(Domain& domain, const Home& home, double dt)
 {
   const Grid& grid = domain.grid;
-  PairTile velocity;
+  const bool flip = domain.flip_blend > 0;
+  PairTile velocity, change;
   read_tile(grid, home.around, grid.velocity_x, grid.velocity_y, velocity);
+  if (flip) read_change(grid, home.around, velocity, change);
   const TileStencils tile(grid, home.block);
   ChunkStencils stencils;
   Readings readings;
@@ -124,8 +158,14 @@ double update_home(Domain& domain, const Home& home, double dt)
                  [&](int material, int begin, int count)
                  {
                    stencils.find(tile, &p.x[begin], &p.y[begin], count);
-                   read<false>(stencils, count, velocity, velocity, readings);
-                   apply(p, begin, count, readings, grid.spacing, dt, gradients);
+                   if (flip)
+                   {
+                     read<true>(stencils, count, velocity, change, readings);
+                     blend_velocity(p, begin, count, domain.flip_blend, readings);
+                   }
+                   else
+                     read<false>(stencils, count, velocity, change, readings);
+                   apply(p, begin, count, readings, grid.spacing, dt, flip, gradients);
                    const double speed = fastest(&p.velocity_x[begin], &p.velocity_y[begin], count, gradients,
                                                 greatest_gradient / dt);
                    greatest = std::max(greatest, speed);

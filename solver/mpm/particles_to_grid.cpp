@@ -14,17 +14,17 @@ struct Tiles
 /// m C column by column (eq. 2), internal force -V sigma column by column.
 struct Sources
 {
-  alignas(64) double mass[chunk_size];
+  const double* mass;
   alignas(64) double momentum[chunk_size][2], spread_x[chunk_size][2], spread_y[chunk_size][2];
   alignas(64) double force_x[chunk_size][2], force_y[chunk_size][2];
 
   void gather(const Particles& p, int begin, int count)
   {
+    mass = &p.mass[begin];
     for (int k = 0; k < count; ++k)
     {
       const int q = begin + k;
       const double m = p.mass[q], V = p.volume[q];
-      mass[k] = m;
       momentum[k][0] = m * p.velocity_x[q];
       momentum[k][1] = m * p.velocity_y[q];
       spread_x[k][0] = m * p.affine_xx[q];
