@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 import plot_common
+import plot_energy
 import plot_histories
 import plot_page
 import plot_sections
@@ -57,7 +58,8 @@ def main():
         pictures += [("static_stress.png", plot_sections.static_stress, ())]
     else:
         pictures += [("histories.png", plot_histories.histories, ()), ("motion.png", plot_histories.motion, ()),
-                     ("slide.png", plot_histories.slide, ()), ("summary.png", plot_page.page, ())]
+                     ("slide.png", plot_histories.slide, ()), ("energy.png", plot_energy.energy, ()),
+                     ("summary.png", plot_page.page, ())]
     drawn = 0
     for name, draw, extra in pictures:
         try:

@@ -301,6 +301,28 @@ double greatest_plastic_strain(const fs::path& final)
   return greatest;
 }
 
+/// The ledgers of a seismic run: sampled from start to end, of all that there is, closed, and in the summary.
+void check_ledger(const fs::path& folder, const std::vector<std::string>& groups)
+{
+  const h5::File history = open_complete(folder / "history.h5");
+  for (const std::string& group : groups)
+  {
+    const auto last = [&](const std::string& term) { return history.read_doubles(group + term).back(); };
+    CHECK(history.read_doubles(group + "time").size() == 13); // 1.2 s
+    INFO(group << ": incoming " << last("incoming") << ", residual " << last("residual"));
+    CHECK(last("incoming") > 0);
+    CHECK(last("radiated_base") > 0.1 * last("incoming"));
+    CHECK(last("plastic") > 0);
+    CHECK(std::fabs(last("residual")) < 0.02 * std::max(last("incoming"), last("plastic")));
+    const double sum = last("kinetic") + last("elastic") + last("gravitational") + last("plastic") +
+                       last("transfer") + last("radiated_base") + last("radiated_sides") - last("incoming") -
+                       last("free_field") - last("static_reaction");
+    CHECK(last("residual") == Approx(sum).margin(1e-9 * last("incoming")));
+  }
+  CHECK_THAT(contents(folder / "summary.json"), Contains("\"left_column\"") && Contains("\"residual\""));
+  CHECK_THAT(contents(folder / "log.txt"), Contains("energy in J/m: ") && !Contains("does not close"));
+}
+
 /// The ways in which a run may be cut short. Each leaves `out` to be gone on with.
 void terminate(const Bench& bench, const std::string& program, const Arguments& arguments,
                const fs::path& out)
@@ -429,6 +451,7 @@ TEST_CASE("a seismic run ends bit for bit the same on one thread and on two", "[
   REQUIRE(bench.run_seismic("one").code == 0);
   REQUIRE(bench.run_seismic("two", {"--threads", "2"}).code == 0);
   check_same_results(bench / "one", bench / "two");
+  check_ledger(bench / "one", {"energy/", "energy/left/", "energy/right/"});
 }
 
 TEST_CASE("a torn checkpoint is passed over for the one before it, and the results stay the same", "[stages]")
