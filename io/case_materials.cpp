@@ -6,7 +6,7 @@ namespace mpm
 {
 namespace
 {
-/// A law's parameter without the law's type.
+/// A law's parameter without the law's type: a number, or a word out of a few.
 struct Target
 {
   std::string_view key; ///< below the section at hand
@@ -14,6 +14,8 @@ struct Target
   Range range;
   bool required;
   double* value;
+  int* choice = nullptr;
+  std::vector<std::string> names = {};
 };
 
 template <class L>
@@ -26,6 +28,10 @@ std::vector<Target> targets_of(L& law)
                        {p.lower, p.lower_allowed, p.upper, p.upper_allowed},
                        p.required,
                        &(law.*p.value)});
+  if constexpr (!L::choices().empty())
+    for (const auto& c : L::choices())
+      targets.push_back(
+          {c.key, Dimension::none, {}, false, nullptr, &(law.*c.value), {c.names.begin(), c.names.end()}});
   return targets;
 }
 
@@ -36,7 +42,9 @@ void read_targets(Section& section, const std::vector<Target>& targets)
   for (const Target& t : targets)
   {
     const auto dot = t.key.find('.');
-    if (dot == std::string_view::npos)
+    if (dot == std::string_view::npos && t.choice)
+      *t.choice = section.choice_or(*t.choice, t.key, t.names);
+    else if (dot == std::string_view::npos)
       *t.value = t.required ? section.number(t.key, t.dimension, t.range)
                             : section.number_or(*t.value, t.key, t.dimension, t.range);
     else if (std::find(groups.begin(), groups.end(), t.key.substr(0, dot)) == groups.end())

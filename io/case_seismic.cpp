@@ -31,6 +31,7 @@ MotionSource read_source(const YamlNode& node, const std::filesystem::path& fold
   const std::vector<std::string> quantities{"acceleration", "velocity", "displacement"};
   if (section.find("quantity"))
     source.record.quantity = static_cast<Quantity>(section.choice("quantity", quantities));
+  source.record.origin = section.text_or("", "origin");
   source.scale = section.number_or(1, "scale", Dimension::none);
   return source;
 }

@@ -521,18 +521,26 @@ Record parse_record(std::string_view text, const RecordSource& source)
   return read_column(source, lines);
 }
 
+namespace
+{
+std::string why_not_open(const RecordSource& source, bool is_folder)
+{
+  std::error_code ignored;
+  if (is_folder) return "is a folder; name a record";
+  if (std::filesystem::exists(source.file, ignored)) return "cannot be opened; check its permissions";
+  if (source.origin.empty())
+    return "no such file; see the README for where records come from, or name another";
+  return "no such file; it comes from " + source.origin;
+}
+} // namespace
+
 Record read_record(const RecordSource& source)
 {
   std::error_code ignored;
   const bool is_folder = std::filesystem::is_directory(source.file, ignored);
   std::ifstream file(source.file, std::ios::binary);
   if (is_folder || !file)
-    throw Error(exit_code::input_missing, source.file + ": " +
-                                              (is_folder ? "is a folder; name a record"
-                                               : std::filesystem::exists(source.file, ignored)
-                                                   ? "cannot be opened; check its permissions"
-                                                   : "no such file; see the README for where "
-                                                     "records come from, or name another"));
+    throw Error(exit_code::input_missing, source.file + ": " + why_not_open(source, is_folder));
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   if (file.bad())
     throw Error(exit_code::input_missing, source.file + ": cannot be read to its end; check the disk");

@@ -19,6 +19,7 @@ struct RecordSource
   double dt = NAN;                  ///< s; NaN: from the file
   std::string unit;                 ///< g, gal, m/s2, cm/s2, m/s, cm/s, m or cm; empty: from the file
   std::optional<Quantity> quantity; ///< empty: that of the unit
+  std::string origin;               ///< where the record can be had, told when the file is missing
 };
 
 /// Reads source.file. Throws Error: input_missing where the file cannot be read, bad_input where it is no

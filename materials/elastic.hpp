@@ -28,13 +28,20 @@ struct Elastic
     };
   }
   static constexpr std::array<StateField, 0> state_fields() { return {}; }
+  /// Parameters that are words, by default none.
+  static constexpr std::array<Choice<Elastic>, 0> choices() { return {}; }
 
   /// What is wrong with the parameters taken together, as `key: what` (empty: nothing); fixes derived values.
   /// `spacing` is the grid's, in m.
   std::string resolve(double /*spacing*/) { return {}; }
 
+  /// What a user should know of the parameters before a run, and what speaks against them (empty: nothing).
+  std::string note() const { return {}; }
+  std::string warning(double /*spacing*/) const { return {}; }
+
   double shear_modulus() const { return young / (2 * (1 + poisson)); }
   double lame() const { return young * poisson / ((1 + poisson) * (1 - 2 * poisson)); }
+  double bulk_modulus() const { return young / (3 * (1 - 2 * poisson)); }
   double p_modulus() const { return lame() + 2 * shear_modulus(); } ///< M = K + 4G/3
   double shear_speed() const { return std::sqrt(shear_modulus() / density); }
   double pressure_speed() const { return std::sqrt(p_modulus() / density); }

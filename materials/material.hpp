@@ -1,6 +1,8 @@
 #pragma once
 
 #include "materials/elastic.hpp"
+#include "materials/mohr_coulomb.hpp"
+#include "materials/slip_weakening.hpp"
 #include "materials/von_mises.hpp"
 
 #include <array>
@@ -12,7 +14,7 @@
 namespace mpm
 {
 /// Every constitutive law there is. A new one is one header and one name here.
-using Law = std::variant<Elastic, VonMises>;
+using Law = std::variant<Elastic, VonMises, MohrCoulomb, SlipWeakening>;
 
 /// No law remembers more history variables than this.
 inline constexpr int most_state_fields = 8;

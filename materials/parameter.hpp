@@ -3,6 +3,7 @@
 // result files are driven by these tables, so a law names each of its quantities once.
 
 #include <limits>
+#include <span>
 #include <string_view>
 
 namespace mpm
@@ -35,6 +36,15 @@ struct Parameter
   bool upper_allowed = true;
   bool required = true; ///< when false and the key is absent, the member keeps NaN or its initial value
   std::string_view doc = "";
+};
+
+/// One parameter of a law that is a word out of a few.
+template <class Law>
+struct Choice
+{
+  std::string_view key;
+  std::span<const std::string_view> names; ///< what the case file may say
+  int Law::*value;                         ///< place among the names; the initial value if the key is absent
 };
 
 /// One history variable of a law: name in checkpoint and frames, unit, and a line of explanation.

@@ -5,8 +5,8 @@
 
 namespace mpm
 {
-/// A stretch of consecutive particles of one law: Cauchy stress (Pa, tension positive, updated in place)
-/// and the strain increment of the step (engineering shear is 2 exy).
+/// A stretch of consecutive particles of one law: Cauchy stress (Pa, tension positive, updated in place), the
+/// strain increment of the step (engineering shear is 2 exy), and mass (kg/m) and volume after it (m3/m).
 struct StressBatch
 {
   int count;
@@ -17,6 +17,8 @@ struct StressBatch
   const double* __restrict exx;
   const double* __restrict eyy;
   const double* __restrict exy;
+  const double* __restrict mass;
+  const double* __restrict volume;
 };
 
 /// sigma += D : de in plane strain (ezz = 0), lame and shear modulus in Pa. Not inlined, so that every law

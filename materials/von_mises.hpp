@@ -1,20 +1,18 @@
 #pragma once
 
 #include "materials/elastic.hpp"
+#include "materials/softening.hpp"
 
 namespace mpm
 {
 /// Elasticity with a von Mises yield surface q = sqrt(3 J2) that softens linearly from the peak to the
 /// residual strength over the plastic strain delta_r / (sqrt(3) l), l the band width (METHODS section 6;
 /// paper Table 1, eq. 8). Strengths are Mises stresses in Pa: the undrained shear strength is q / sqrt(3).
-struct VonMises : Elastic
+struct VonMises : Elastic, LinearSoftening
 {
   static constexpr std::string_view model = "von_mises";
   double peak = NAN;
-  double residual = NAN;               ///< left out: perfectly plastic
-  double softening_displacement = NAN; ///< delta_r in m
-  double band_width = NAN;             ///< l in m, by default 1.45 grid spacings
-  double softening_strain = NAN;       ///< plastic strain at which the residual strength is reached
+  double residual = NAN; ///< left out: perfectly plastic
 
   static constexpr auto parameters()
   {
@@ -41,28 +39,12 @@ struct VonMises : Elastic
   {
     if (std::isnan(residual)) residual = peak;
     if (residual > peak) return "strength.residual: is above strength.peak; give at most the peak";
-    const bool by_displacement = !std::isnan(softening_displacement);
-    const bool by_strain = !std::isnan(softening_strain);
     if (residual == peak)
     {
       softening_strain = 1; // never used: the slope is zero
       return {};
     }
-    if (by_displacement == by_strain && !(by_displacement && resolved_))
-      return "softening: give either 'displacement' (a length) or 'strain', since the residual strength is "
-             "below the peak";
-    if (by_displacement)
-    {
-      if (std::isnan(band_width)) band_width = 1.45 * spacing;
-      softening_strain = softening_displacement / (std::sqrt(3.0) * band_width);
-      resolved_ = true;
-    }
-    if (softening_strain <= (peak - residual) / (3 * shear_modulus()))
-      return "softening: is so steep that the stress would snap back (residual strain " +
-             std::to_string(softening_strain) +
-             " <= (peak - residual) / 3G = " + std::to_string((peak - residual) / (3 * shear_modulus())) +
-             "); use a longer displacement or a smaller band width";
-    return {};
+    return resolve_softening(spacing, (peak - residual) / (3 * shear_modulus()));
   }
 
   /// Small-step radial return, exact for linear softening; state[0] is the plastic strain.
@@ -83,8 +65,6 @@ struct VonMises : Elastic
   }
 
 private:
-  bool resolved_ = false;
-
   void return_to_yield_surface(const StressBatch& s, double* __restrict strain) const
   {
     const double stiffness = 3 * shear_modulus(), top = peak, bottom = residual;

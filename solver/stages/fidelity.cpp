@@ -55,6 +55,9 @@ void report_wave_fidelity(Session& session, double dt, const IncomingWave* wave)
     const Elastic& e = material.elastic();
     session.log.info("{}: density {} kg/m3, c_s {:.1f} m/s, c_p {:.1f} m/s", material.name, e.density,
                      e.shear_speed(), e.pressure_speed());
+    if (const std::string note = std::visit([](const auto& law) { return law.note(); }, material.law);
+        !note.empty())
+      session.log.info("{}: {}", material.name, note);
     for (std::size_t k = 0; k < kinds.size(); ++k)
     {
       const double speed = (e.*kinds[k].speed)();

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <numbers>
 #include <unistd.h>
 
 using namespace mpm;
@@ -489,4 +490,89 @@ TEST_CASE("A profile file with a bad row is refused with file and row", "[io]")
 TEST_CASE("YAML that contains itself comes to an end", "[io]")
 {
   CHECK_THAT(refusal("a: &a [*a]\n"), Contains("nested too deeply") || Contains("is not YAML"));
+}
+
+namespace
+{
+const std::string landslide = R"(schema: seismpm-case/1
+grid: {spacing: 2 m}
+domain: {x: [0 m, 40 m], bottom: 0 m}
+surfaces:
+  zone: {points: [[0 m, 10 m]]}
+  ground: {points: [[0 m, 20 m]]}
+regions:
+  - {material: zone, below: zone}
+  - {material: mass, below: ground}
+materials:
+  mass:
+    model: mohr_coulomb
+    density: 2450 kg/m3
+    young_modulus: 3.6 GPa
+    poisson_ratio: 0.3
+    friction_angle: {peak: 38.5 deg, residual: 18.9 deg}
+    cohesion: {peak: 980 kPa, residual: 0 kPa}
+    softening: {displacement: 1.7 m}
+  zone:
+    model: slip_weakening
+    density: 2450 kg/m3
+    young_modulus: 1 GPa
+    poisson_ratio: 0.3
+    friction: {peak: 0.56, residual: 0.07}
+    critical_slip: 1.7 m
+    thickness: 4 m
+    match: plane
+)";
+} // namespace
+
+TEST_CASE("Mohr-Coulomb and slip weakening are read from their tables", "[io]")
+{
+  const Case scene = load(landslide);
+  const auto& mass = std::get<MohrCoulomb>(scene.materials[0].law);
+  CHECK(mass.friction_peak == Approx(38.5 * std::numbers::pi / 180));
+  CHECK(mass.cohesion_residual == 0);
+  CHECK(mass.softening_strain == Approx(1.7 / (std::sqrt(3.0) * 1.45 * 2)));
+  CHECK(mass.dilation == 0);
+  const auto& zone = std::get<SlipWeakening>(scene.materials[1].law);
+  CHECK(zone.friction_residual == 0.07);
+  CHECK(zone.match == SlipWeakening::plane);
+  REQUIRE(scene.warnings.size() == 1);
+  CHECK_THAT(scene.warnings[0], Contains("materials.zone.thickness: 4 m is 2 cells"));
+  CHECK(scene.output.frames.fields == std::vector<std::string>{"displacement", "velocity", "stress",
+                                                               "plastic_strain", "opening", "dissipation"});
+  CHECK(std::get<SlipWeakening>(load(replaced(landslide, "    match: plane\n", "")).materials[1].law).match ==
+        SlipWeakening::mc);
+}
+
+TEST_CASE("A word that a material does not know is refused with those it knows", "[io]")
+{
+  CHECK_THAT(
+      refusal(replaced(landslide, "match: plane", "match: plan")),
+      Contains(
+          "case.yaml:27:12: materials.zone.match: is 'plan'; must be mc or plane; did you mean 'plane'?"));
+  CHECK_THAT(
+      refusal(replaced(landslide, "friction_angle: {peak: 38.5 deg,", "friction_angle: {peak: 98.5 deg,")),
+      Contains("materials.mass.friction_angle.peak: is 98.5 deg; must be"));
+  CHECK_THAT(refusal(replaced(landslide, "residual: 0 kPa}", "residual: 990 kPa}")),
+             Contains("materials.mass.cohesion.residual: is above cohesion.peak"));
+}
+
+TEST_CASE("A record that is missing is told with where it can be had", "[io]")
+{
+  const Case scene = load(small + R"(seismic:
+  duration: 1 s
+  motion:
+    recorded_as: outcrop
+    horizontal: {file: records/none.AT2, origin: "the archive, record 7"}
+)");
+  CHECK(scene.seismic.motion.horizontal->record.origin == "the archive, record 7");
+  try
+  {
+    read_record(scene.seismic.motion.horizontal->record);
+    FAIL("was read");
+  }
+  catch (const Error& error)
+  {
+    CHECK(error.code == exit_code::input_missing);
+    CHECK_THAT(error.what(), Contains("records/none.AT2: no such file; it comes from the archive, record 7"));
+  }
 }

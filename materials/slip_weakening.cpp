@@ -1,0 +1,114 @@
+#include "materials/slip_weakening.hpp"
+
+#include <cstdio>
+
+namespace mpm
+{
+namespace
+{
+constexpr double cells_wanted = 3; // of a zone's thickness, below which splines smear it
+} // namespace
+
+std::string SlipWeakening::resolve(double /*spacing*/)
+{
+  if (std::isnan(friction_residual)) friction_residual = friction_peak;
+  if (friction_residual > friction_peak)
+    return "friction.residual: is above friction.peak; give at most the peak";
+  if (weakens() && std::isnan(critical_slip))
+    return "critical_slip: is missing; give the slip over which the friction falls to its residual";
+  if (match == plane && friction_peak >= 1)
+    return "match: 'plane' takes the friction as sin(phi), which must be below 1; use mc or less friction";
+  return {};
+}
+
+std::string SlipWeakening::note() const
+{
+  std::array<char, 160> text;
+  std::snprintf(
+      text.data(), text.size(),
+      "match %s: in simple shear the friction of %.3g mobilises tau / sigma_n = %.3f, the residual %.3g %.4f",
+      std::string(match_names[match]).c_str(), friction_peak, mobilised(friction_peak), friction_residual,
+      mobilised(friction_residual));
+  return text.data();
+}
+
+std::string SlipWeakening::warning(double spacing) const
+{
+  if (thickness >= cells_wanted * spacing) return {};
+  std::array<char, 200> text;
+  std::snprintf(
+      text.data(), text.size(),
+      "thickness: %.3g m is %.2g cells; a zone below 3 cells is smeared, and its slip with it: use a finer "
+      "grid or a thicker zone",
+      thickness, thickness / spacing);
+  return text.data();
+}
+
+/// Solves f(x) = tau - sqrt(3) G x - p sin(phi)(strain + x) = 0 by Newton's method, from the residual
+/// strength's solution downwards. f is concave there (for friction below 0.7), so that the steps come from
+/// one side, also where the strength falls faster than the stress and a start from 0 would go astray.
+double SlipWeakening::plastic_step(double tau, double pressure, double strain) const
+{
+  const double stiffness = std::sqrt(3.0) * shear_modulus();
+  const double greatest = (tau - pressure * mobilised(friction_residual)) / stiffness;
+  if (!weakens() || pressure <= 0) return greatest;
+  double low = 0, high = greatest, x = greatest;
+  for (int k = 0; k < 60; ++k)
+  {
+    const double mu = friction(strain + x);
+    const double value = tau - stiffness * x - pressure * mobilised(mu);
+    (value > 0 ? low : high) = x;
+    const double root = match == plane ? 1 : std::sqrt(1 + mu * mu);
+    const double mobilised_slope = 1 / (root * root * root);
+    const double slope = -stiffness + pressure * mobilised_slope * decay() * (mu - friction_residual);
+    double next = x - value / slope;
+    if (!(next > low && next < high)) next = 0.5 * (low + high);
+    const double change = std::fabs(next - x);
+    x = next;
+    if (change <= 1e-15 * greatest) break;
+  }
+  return x;
+}
+
+void SlipWeakening::return_to_surface(const StressBatch& s, double* __restrict strain,
+                                      double* __restrict opening, double* __restrict dissipation) const
+{
+  const double G = shear_modulus(), K = bulk_modulus();
+  const double peak = mobilised(friction_peak), residual = mobilised(friction_residual);
+  const auto shear = [&](int k, double mean)
+  {
+    const double a = s.xx[k] - mean, b = s.yy[k] - mean, c = s.zz[k] - mean;
+    return std::sqrt(0.5 * (a * a + b * b + c * c) + s.xy[k] * s.xy[k]);
+  };
+  // Points that have slipped are looked at closely from the residual strength on: their own costs an
+  // exponential.
+  const auto excess = [&](int k)
+  {
+    const double mean = (s.xx[k] + s.yy[k] + s.zz[k]) / 3;
+    const double over = shear(k, mean) + (strain[k] > 0 ? residual : peak) * mean;
+    return opening[k] > 0 ? 1.0 : over;
+  };
+  const auto settle = [&](int k)
+  {
+    const double elastic = (s.xx[k] + s.yy[k] + s.zz[k]) / 3;
+    const double closed = close_opening(elastic, K, opening[k]);
+    const double mean = std::min(closed, 0.0); // no tension
+    opening[k] += (closed - mean) / K;
+    const double tau = shear(k, elastic);
+    double step = 0, scale = 1;
+    if (tau > -mean * mobilised(friction(strain[k])))
+    {
+      step = plastic_step(tau, -mean, strain[k]);
+      scale = mean < 0 ? 1 - std::sqrt(3.0) * G * step / tau : 0;
+      strain[k] += step;
+      dissipation[k] += std::sqrt(3.0) * scale * tau * step * volume_ratio(s, k, density);
+    }
+    if (step == 0 && mean == elastic) return;
+    s.xx[k] = mean + (s.xx[k] - elastic) * scale;
+    s.yy[k] = mean + (s.yy[k] - elastic) * scale;
+    s.zz[k] = mean + (s.zz[k] - elastic) * scale;
+    s.xy[k] *= scale;
+  };
+  for_each_beyond(s.count, excess, settle);
+}
+} // namespace mpm

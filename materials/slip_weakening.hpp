@@ -1,0 +1,91 @@
+#pragma once
+
+#include "materials/elastic.hpp"
+#include "materials/plastic.hpp"
+
+#include <limits>
+
+namespace mpm
+{
+/// Elasticity with the Drucker-Prager surface sqrt(J2) = sin(phi) p, flow at constant volume, and friction
+/// that weakens with slip (paper eqs. 7 and 8; Mizoguchi et al. 2007): mu = mu_r + (mu_p - mu_r) exp(ln(0.05)
+/// d / d_c), d = sqrt(3) eps_s delta_s with delta_s the thickness of the shear zone. No cohesion; a point
+/// torn apart carries no pressure until it has closed. At constant volume in plane strain sqrt(J2) = (s1 -
+/// s3) / 2 and p = -(s1 + s3) / 2, so that a band in simple shear mobilises tau / sigma_n = sin(phi) (Davis
+/// 1968).
+struct SlipWeakening : Elastic
+{
+  /// How the friction coefficient becomes the angle: mc as that of a Mohr-Coulomb surface, tan(phi) = mu;
+  /// plane so that the band mobilises it, sin(phi) = mu.
+  enum Match : int
+  {
+    mc,
+    plane,
+  };
+
+  static constexpr std::string_view model = "slip_weakening";
+  double friction_peak = NAN, friction_residual = NAN; ///< coefficient; residual left out: no weakening
+  double critical_slip = NAN;                          ///< d_c in m, after which 5 % of the drop are left
+  double thickness = NAN;                              ///< delta_s in m
+  int match = mc;
+
+  static constexpr auto parameters()
+  {
+    using P = Parameter<SlipWeakening>;
+    using D = Dimension;
+    using L = SlipWeakening;
+    constexpr double inf = std::numeric_limits<double>::infinity();
+    return std::array{
+        P{"density", D::density, &L::density, 0, false},
+        P{"young_modulus", D::stress, &L::young, 0, false},
+        P{"poisson_ratio", D::none, &L::poisson, -1, false, 0.5, false},
+        P{"friction.peak", D::none, &L::friction_peak, 0, true},
+        P{"friction.residual", D::none, &L::friction_residual, 0, true, inf, true, false},
+        P{"critical_slip", D::length, &L::critical_slip, 0, false, inf, true, false},
+        P{"thickness", D::length, &L::thickness, 0, false},
+    };
+  }
+  static constexpr std::array<std::string_view, 2> match_names{"mc", "plane"};
+  static constexpr auto choices()
+  {
+    return std::array{Choice<SlipWeakening>{"match", match_names, &SlipWeakening::match}};
+  }
+  static constexpr std::array<StateField, 3> state_fields()
+  {
+    return {{{"plastic_strain", "1", "accumulated equivalent plastic strain"},
+             {"opening", "1", "volumetric strain by which the point is torn apart"},
+             {"dissipation", "J/m3", "energy dissipated by plastic flow per undeformed volume"}}};
+  }
+
+  std::string resolve(double spacing);
+  std::string note() const;
+  std::string warning(double spacing) const;
+
+  /// Friction coefficient after a plastic strain, eqs. (7) and (8).
+  double friction(double plastic_strain) const
+  {
+    if (!weakens() || plastic_strain <= 0) return friction_peak;
+    return friction_residual + (friction_peak - friction_residual) * std::exp(-decay() * plastic_strain);
+  }
+  /// sin(phi) = tau / sigma_n on a band in simple shear, at a friction coefficient.
+  double mobilised(double friction) const
+  {
+    return match == plane ? friction : friction / std::sqrt(1 + friction * friction);
+  }
+
+  /// Elastic trial, and a return at constant pressure to the strength of the step's end.
+  void update(const StressBatch& s, double* const* state, bool plastic) const
+  {
+    add_elastic_stress(s, lame(), shear_modulus());
+    if (plastic) return_to_surface(s, state[0], state[1], state[2]);
+  }
+  double dissipated(const double* const* state, int k) const { return state[2][k]; }
+
+private:
+  bool weakens() const { return friction_residual < friction_peak; }
+  /// -d ln(mu - mu_r) / d eps_s
+  double decay() const { return -std::log(0.05) * std::sqrt(3.0) * thickness / critical_slip; }
+  double plastic_step(double excess_shear, double pressure, double strain) const;
+  void return_to_surface(const StressBatch& s, double* strain, double* opening, double* dissipation) const;
+};
+} // namespace mpm

@@ -1,0 +1,83 @@
+"""Turns the east and north components of a record into a direction: azimuth in degrees, clockwise from north.
+
+    scripts/resolve-motion EAST.AT2 NORTH.AT2 --azimuth 215 --out records/CHY080-215.AT2
+
+Reads PEER's .AT2, .VT2 and .DT2 files (a header with NPTS and DT, then the values) and writes one of the same kind:
+sin(azimuth) east + cos(azimuth) north.
+"""
+
+import argparse
+import math
+import os
+import re
+import sys
+
+import numpy
+
+
+class BadRecord(Exception):
+    pass
+
+
+def read(path):
+    """Header lines and values of a PEER file, and its time step in s."""
+    with open(path, encoding="latin-1") as file:
+        lines = file.read().splitlines()
+    for k, line in enumerate(lines[:10]):
+        count = re.search(r"NPTS\s*=\s*(\d+)", line, re.IGNORECASE) or re.match(r"\s*(\d+)\s+[\d.]+\s+NPTS", line)
+        step = re.search(r"DT\s*=\s*([\d.E+-]+)", line, re.IGNORECASE) or re.match(r"\s*\d+\s+([\d.]+)\s+NPTS", line)
+        if count and step:
+            break
+    else:
+        raise BadRecord(f"{path}: no header line with NPTS and DT; give PEER's .AT2, .VT2 or .DT2")
+    try:
+        values = numpy.array(" ".join(lines[k + 1 :]).split(), dtype=float)
+    except ValueError as error:
+        raise BadRecord(f"{path}: {error}") from error
+    if values.size < int(count[1]):
+        raise BadRecord(f"{path}: the header tells of {count[1]} values, there are {values.size}")
+    return lines[:k], values[: int(count[1])], float(step[1])
+
+
+def resolve(east, north, azimuth):
+    """Component of (east, north) along an azimuth in degrees."""
+    angle = math.radians(azimuth)
+    return math.sin(angle) * east + math.cos(angle) * north
+
+
+def write(path, header, values, step):
+    temporary = path + ".part"
+    with open(temporary, "w", encoding="ascii") as file:
+        file.write("\n".join(header) + f"\nNPTS= {values.size:6d}, DT= {step:.6f} SEC\n")
+        for k in range(0, values.size, 5):
+            file.write("".join(f"{value:15.7E}" for value in values[k : k + 5]) + "\n")
+    os.replace(temporary, path)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("east")
+    parser.add_argument("north")
+    parser.add_argument("--azimuth", type=float, required=True, help="degrees, clockwise from north")
+    parser.add_argument("--out", required=True)
+    options = parser.parse_args()
+    try:
+        header, east, step = read(options.east)
+        _, north, other_step = read(options.north)
+        if step != other_step or east.size != north.size:
+            raise BadRecord(f"the records differ: {east.size} values of {step} s and {north.size} of {other_step} s")
+        values = resolve(east, north, options.azimuth)
+        note = f"{os.path.basename(options.east)} and {os.path.basename(options.north)}, azimuth {options.azimuth:g}"
+        # The last line before NPTS tells quantity and unit; the one before it is ours.
+        os.makedirs(os.path.dirname(os.path.abspath(options.out)), exist_ok=True)
+        write(options.out, header[:-2] + [note] + header[-1:], values, step)
+    except (OSError, BadRecord) as error:
+        print(f"resolve-motion: {error}", file=sys.stderr)
+        return 65 if isinstance(error, BadRecord) else 66
+    peak = int(numpy.argmax(abs(values)))
+    print(f"{options.out}: {values.size} values, peak {values[peak]:.4g} at {peak * step:.2f} s")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,421 @@
+#include "test/materials/point.hpp"
+#include "test/scenes.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <numbers>
+
+using namespace mpm;
+using namespace point;
+using scenes::Random;
+
+namespace
+{
+constexpr double degree = std::numbers::pi / 180;
+
+MohrCoulomb mohr_coulomb(double friction, double cohesion, double dilation = 0)
+{
+  MohrCoulomb law;
+  law.density = 2000;
+  law.young = 50e6;
+  law.poisson = 0.3;
+  law.friction_peak = friction * degree;
+  law.cohesion_peak = cohesion;
+  law.dilation = dilation * degree;
+  REQUIRE(law.resolve(1).empty());
+  return law;
+}
+
+/// The landslide mass of the paper's Table 2.
+MohrCoulomb rock()
+{
+  MohrCoulomb law = mohr_coulomb(38.5, 980e3);
+  law.young = 3.6e9;
+  law.density = 2450;
+  law.friction_residual = 18.9 * degree;
+  law.cohesion_residual = 0;
+  law.softening_strain = 0.01;
+  REQUIRE(law.resolve(1).empty());
+  return law;
+}
+
+/// Excess over the surface of given angle and cohesion, Pa.
+double excess(const Point& p, double friction, double cohesion)
+{
+  const auto s = p.principal();
+  return s[0] - s[2] + (s[0] + s[2]) * std::sin(friction) - 2 * cohesion * std::cos(friction);
+}
+
+/// sigma = D strain of an isotropic solid, principal values.
+std::array<double, 3> stiffness_times(const Elastic& law, const std::array<double, 3>& strain)
+{
+  const double volumetric = law.lame() * (strain[0] + strain[1] + strain[2]);
+  std::array<double, 3> s;
+  for (int i = 0; i < 3; ++i) s[i] = volumetric + 2 * law.shear_modulus() * strain[i];
+  return s;
+}
+
+/// The return by geometry: all six planes of the pyramid in principal space with their flow vectors; the
+/// multipliers that fulfil sigma = trial - D sum m_k l_k, l_k >= 0, F_k <= 0, F_k l_k = 0 found by projected
+/// relaxation (one plane at a time), without any order of stresses, regions, edges or apex.
+std::array<double, 3> relax_onto_pyramid(const Elastic& law, std::array<double, 3> s, double friction,
+                                         double cohesion, double dilation)
+{
+  struct Plane
+  {
+    std::array<double, 3> normal, change;
+    double rate, multiplier = 0;
+  };
+  std::vector<Plane> planes;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+    {
+      if (i == j) continue;
+      Plane plane{};
+      std::array<double, 3> flow{};
+      plane.normal[i] = 1 + std::sin(friction);
+      plane.normal[j] = -(1 - std::sin(friction));
+      flow[i] = 1 + std::sin(dilation);
+      flow[j] = -(1 - std::sin(dilation));
+      plane.change = stiffness_times(law, flow);
+      for (int c = 0; c < 3; ++c) plane.rate += plane.normal[c] * plane.change[c];
+      planes.push_back(plane);
+    }
+  double change = 1;
+  for (int sweep = 0; sweep < 20000 && change > 1e-17; ++sweep)
+  {
+    change = 0;
+    for (Plane& plane : planes)
+    {
+      double over = -2 * cohesion * std::cos(friction);
+      for (int c = 0; c < 3; ++c) over += plane.normal[c] * s[c];
+      const double next = std::max(0.0, plane.multiplier + over / plane.rate);
+      for (int c = 0; c < 3; ++c) s[c] -= plane.change[c] * (next - plane.multiplier);
+      change = std::max(change, std::fabs(next - plane.multiplier));
+      plane.multiplier = next;
+    }
+  }
+  return s;
+}
+
+/// A point compressed evenly, then sheared by random steps.
+Increment random_increment(Random& random, double size)
+{
+  return {random(-size, size), random(-size, size), random(-size, size)};
+}
+} // namespace
+
+TEST_CASE("Mohr-Coulomb returns where geometry in principal space returns", "[materials]")
+{
+  Random random(71);
+  double worst = 0;
+  for (const double dilation : {0.0, 10.0, 30.0})
+  {
+    const MohrCoulomb law = mohr_coulomb(30, 20e3, dilation);
+    int compared = 0;
+    for (int trial = 0; trial < 60; ++trial)
+    {
+      Point from;
+      const double pressure = random(50e3, 300e3);
+      from.stress = {-pressure, -pressure, -pressure * random(0.8, 1.2), 0};
+      const Increment e = random_increment(random, 5e-3);
+      const Point elastic = update(law, from, e, false), p = update(law, from, e);
+      if (p.opening() > 0) continue; // without plastic volume change the planes alone do not meet the apex
+      const auto wanted = relax_onto_pyramid(law, elastic.principal(), law.friction_peak, 20e3, law.dilation);
+      auto sorted = wanted;
+      std::sort(sorted.begin(), sorted.end(), std::greater<>());
+      const auto found = p.principal();
+      for (int c = 0; c < 3; ++c) worst = std::max(worst, std::fabs(found[c] - sorted[c]));
+      ++compared;
+    }
+    CHECK(compared > 40);
+  }
+  // The relaxation ends at round-off of the trial stress, 1e6 Pa.
+  CHECK(worst < 1e-7);
+}
+
+TEST_CASE("Whatever the trial, Mohr-Coulomb ends on or below its surface and the cut-off", "[materials]")
+{
+  Random random(72);
+  for (const double friction : {0.0, 20.0, 38.5, 60.0})
+    for (const double dilation : {0.0, 10.0, 60.0})
+      for (const double cutoff : {std::numeric_limits<double>::infinity(), 3e3})
+      {
+        if (dilation > friction) continue;
+        MohrCoulomb law = mohr_coulomb(friction, 10e3, dilation);
+        law.tension_cutoff = cutoff;
+        const double limit = friction > 0 ? std::min(cutoff, 10e3 / std::tan(friction * degree)) : cutoff;
+        double over = 0, tension = 0, volume = 0;
+        for (int k = 0; k < 4000; ++k)
+        {
+          Point from;
+          from.stress = {random(-1e5, 2e4), random(-1e5, 2e4), random(-1e5, 2e4), random(-5e4, 5e4)};
+          const Increment e = random_increment(random, 3e-3);
+          const Point elastic = update(law, from, e, false), p = update(law, from, e);
+          double scale = 10e3;
+          for (int c = 0; c < 4; ++c) scale += std::fabs(elastic.stress[c]) + std::fabs(p.stress[c]);
+          over = std::max(over, excess(p, law.friction_peak, 10e3) / scale);
+          tension = std::max(tension, (p.principal()[0] - limit) / scale);
+          REQUIRE(p.strain() >= 0);
+          REQUIRE(p.dissipation() >= 0);
+          if (dilation == 0 && p.principal()[0] < limit * 0.999)
+            volume = std::max(volume, std::fabs(p.mean() - elastic.mean()) / scale);
+        }
+        INFO(friction << " " << dilation << " " << cutoff);
+        // Roundings of the stresses, some times larger where the dilation is great.
+        CHECK(over < 1e-13);
+        CHECK(tension < 1e-15);
+        CHECK(volume < 1e-15);
+      }
+}
+
+// The triaxial point is led with exx = eyy, so that z is its axis; the biaxial one at constant sigma_yy.
+TEST_CASE("Mohr-Coulomb reaches the limit states of triaxial and biaxial tests", "[materials]")
+{
+  const MohrCoulomb law = mohr_coulomb(30, 20e3);
+  const double sine = 0.5, cohesive = 20e3 * std::cos(30 * degree);
+
+  Point triaxial;
+  triaxial.stress = {-200e3, -200e3, -600e3, 0};
+  for (int k = 0; k < 500; ++k) triaxial = update(law, triaxial, {1e-6, 1e-6, 0});
+  // Extension in x and y while z is held: sigma_z = N sigma_r + 2 c sqrt(N), N = (1 + sin) / (1 - sin) = 3.
+  const auto t = triaxial.principal();
+  REQUIRE(triaxial.strain() > 1e-4);
+  REQUIRE(t[0] < 0);
+  CHECK(t[0] == Approx(t[1]).epsilon(1e-12));
+  CHECK(std::fabs(t[2] / (3 * t[0] - 2 * 20e3 * std::sqrt(3.0)) - 1) < 1e-6);
+
+  Point biaxial;
+  biaxial.stress = {-100e3, -100e3, -100e3, 0};
+  for (int k = 0; k < 400; ++k) biaxial = hold_yy(law, biaxial, -5e-5, 0, -100e3);
+  REQUIRE(biaxial.strain() > 1e-3);
+  const auto b = biaxial.principal();
+  const double tau = 0.5 * (b[0] - b[2]), middle = -0.5 * (b[0] + b[2]);
+  CHECK(std::fabs(tau / (middle * sine + cohesive) - 1) < 1e-6);
+  // tau_max at sigma_3 = 100 kPa: sigma_1 = sigma_3 (1 + sin) / (1 - sin) + 2 c cos / (1 - sin).
+  CHECK(std::fabs(-b[2] / (3 * 100e3 + 2 * cohesive / (1 - sine)) - 1) < 1e-6);
+}
+
+TEST_CASE(
+    "At constant volume Mohr-Coulomb mobilises sin phi in simple shear, and Davis' friction with dilation",
+    "[materials]")
+{
+  for (const double dilation : {0.0, 15.0})
+  {
+    const MohrCoulomb law = mohr_coulomb(30, 0, dilation);
+    Point p;
+    p.stress = {-50e3, -100e3, -50e3, 0};
+    for (int k = 0; k < 4000; ++k) p = hold_yy(law, p, 0, 2e-5, -100e3);
+    // Davis (1968): tau / sigma_n = sin phi cos psi / (1 - sin phi sin psi).
+    const double psi = dilation * degree;
+    const double wanted = 0.5 * std::cos(psi) / (1 - 0.5 * std::sin(psi));
+    CHECK(std::fabs(p.stress[3] / 100e3 / wanted - 1) < 1e-6);
+  }
+}
+
+TEST_CASE("Mohr-Coulomb softens from peak to residual over its strain", "[materials]")
+{
+  const MohrCoulomb law = rock();
+  Point p;
+  p.stress = {-3e6, -3e6, -3e6, 0};
+  double peak = 0, strain_at_residual = 0;
+  for (int k = 0; k < 40000; ++k)
+  {
+    const double before = p.strain();
+    p = update(law, p, {0, 0, 1e-6});
+    const double share = std::min(before / law.softening_strain, 1.0);
+    const double friction = (38.5 - 19.6 * share) * degree, cohesion = 980e3 * (1 - share);
+    if (p.strain() > before) REQUIRE(std::fabs(excess(p, friction, cohesion)) < 1e-13 * 980e3 * 20);
+    peak = std::max(peak, p.stress[3]);
+    if (share >= 1 && strain_at_residual == 0) strain_at_residual = before;
+  }
+  CHECK(peak == Approx(3e6 * std::sin(38.5 * degree) + 980e3 * std::cos(38.5 * degree)).epsilon(1e-4));
+  CHECK(strain_at_residual == Approx(law.softening_strain).epsilon(1e-3));
+  CHECK(p.stress[3] == Approx(3e6 * std::sin(18.9 * degree)).epsilon(1e-9));
+}
+
+TEST_CASE("What Mohr-Coulomb dissipates is the work done less the elastic energy stored", "[materials]")
+{
+  const MohrCoulomb law = rock();
+  const double G = law.shear_modulus(), K = law.bulk_modulus();
+  const auto stored = [&](const Point& p)
+  { return p.mean() * p.mean() / (2 * K) + p.shear() * p.shear() / (2 * G); };
+  Point p;
+  p.stress = {-3e6, -2e6, -3e6, 0};
+  const double start = stored(p);
+  double work = 0;
+  for (int k = 0; k < 40000; ++k)
+  {
+    const double t = k * 1e-4;
+    const Increment e{-2e-7 * std::sin(3 * t), 1e-7 * std::sin(2 * t), 1e-6};
+    const Point before = p;
+    p = update(law, p, e);
+    const auto mean = [&](int c) { return 0.5 * (before.stress[c] + p.stress[c]); };
+    work += (mean(0) * e.xx + mean(1) * e.yy + 2 * mean(3) * e.xy) * p.ratio;
+  }
+  REQUIRE(p.strain() > law.softening_strain);
+  // Stress of the step's end against the middle's: half the stress change of a step times its plastic strain.
+  CHECK(p.dissipation() == Approx(work + start - stored(p)).epsilon(2e-4));
+}
+
+TEST_CASE("Equal peak and residual strength are perfectly plastic Mohr-Coulomb to the last bit",
+          "[materials]")
+{
+  Random random(73);
+  const MohrCoulomb perfect = mohr_coulomb(30, 10e3, 5);
+  MohrCoulomb equal = perfect;
+  equal.softening_strain = 0.02;
+  Point a, b;
+  a.stress = b.stress = {-50e3, -80e3, -60e3, 0};
+  for (int k = 0; k < 5000; ++k)
+  {
+    const Increment e = random_increment(random, 5e-4);
+    a = update(perfect, a, e);
+    b = update(equal, b, e);
+  }
+  CHECK(a.strain() > 0.05);
+  CHECK(a.stress == b.stress);
+  CHECK(a.state == b.state);
+}
+
+TEST_CASE("Debris pulled apart carries no pressure before it has closed again", "[materials]")
+{
+  const MohrCoulomb law = mohr_coulomb(30, 0);
+  Point p;
+  p.stress = {-10e3, -10e3, -10e3, 0};
+  // To twice its volume, sheared and turned on the way.
+  for (int k = 0; k < 7000; ++k) p = update(law, p, {4e-5, 6e-5, 3e-5});
+  CHECK(p.ratio == Approx(std::exp(0.7)));
+  CHECK(p.shear() == 0);
+  CHECK(p.mean() == 0);
+  int steps = 0;
+  while (p.mean() == 0 && steps < 100000)
+  {
+    p = update(law, p, {-5e-5, -5e-5, 0});
+    ++steps;
+  }
+  // Closed where it was free of stress: by the elastic compression of the first 10 kPa above the start, less
+  // a step.
+  const double unloaded = std::exp(10e3 / law.bulk_modulus());
+  CHECK(p.ratio == Approx(unloaded).margin(1.1e-4));
+  CHECK(p.opening() == 0);
+  for (int k = 0; k < 10; ++k) p = update(law, p, {-5e-5, -5e-5, 0});
+  CHECK(p.mean() < -10e3);
+}
+
+TEST_CASE("Cohesive ground opens at its apex and closes at no pressure", "[materials]")
+{
+  const MohrCoulomb law = mohr_coulomb(30, 10e3);
+  Point p;
+  for (int k = 0; k < 1000; ++k) p = update(law, p, {1e-5, 1e-5, 0});
+  const double apex = 10e3 / std::tan(30 * degree);
+  CHECK(p.mean() == Approx(apex));
+  const double opening = p.opening();
+  CHECK(opening == Approx(0.02 - apex / law.bulk_modulus()));
+  p = update(law, p, {-5e-3, -5e-3, 0});
+  CHECK(std::fabs(p.mean()) < 1e-9);
+  // The elastic expansion goes back first.
+  CHECK(p.opening() == Approx(opening - 0.01 + apex / law.bulk_modulus()));
+  for (int k = 0; k < 10; ++k) p = update(law, p, {-1e-3, -1e-3, 0});
+  CHECK(p.opening() == 0);
+  CHECK(p.mean() < -10e3);
+}
+
+TEST_CASE("A tension cut-off holds the greatest principal stress", "[materials]")
+{
+  MohrCoulomb law = mohr_coulomb(30, 10e3);
+  law.tension_cutoff = 2e3;
+  Point p;
+  p.stress = {0, -8e3, 0, 0};
+  for (int k = 0; k < 1000; ++k) p = update(law, p, {1e-5, 0, 2e-6});
+  CHECK(p.principal()[0] == Approx(2e3).epsilon(1e-12));
+  law.tension_cutoff = 1e9; // never above the apex
+  p = {};
+  for (int k = 0; k < 1000; ++k) p = update(law, p, {1e-5, 1e-5, 0});
+  CHECK(p.principal()[0] == Approx(10e3 / std::tan(30 * degree)).epsilon(1e-12));
+}
+
+TEST_CASE("A heap of no cohesion on its apex at every step stays finite and free of stress", "[materials]")
+{
+  Random random(74);
+  for (const double friction : {0.0, 30.0, 60.0})
+  {
+    MohrCoulomb law = mohr_coulomb(friction, 0);
+    law.tension_cutoff = 0;
+    Point p;
+    for (int k = 0; k < 20000; ++k)
+    {
+      p = update(law, p, {random(-1e-3, 1.2e-3), random(-1e-3, 1.2e-3), random(-1e-3, 1e-3)});
+      REQUIRE(std::isfinite(p.stress[0] + p.stress[1] + p.stress[2] + p.stress[3] + p.state[0] + p.state[1]));
+      REQUIRE(p.principal()[0] <= 1e-9);
+    }
+    CHECK(p.opening() > 0);
+  }
+}
+
+TEST_CASE("Below its surface Mohr-Coulomb is elastic, and with cohesion without end too", "[materials]")
+{
+  Random random(75);
+  const MohrCoulomb law = mohr_coulomb(30, 1e9);
+  Point p, elastic;
+  for (int k = 0; k < 1000; ++k)
+  {
+    const Increment e = random_increment(random, 1e-3);
+    p = update(law, p, e);
+    elastic = update(static_cast<const Elastic&>(law), elastic, e);
+  }
+  CHECK(p.stress == elastic.stress);
+  CHECK(p.strain() == 0);
+}
+
+TEST_CASE("A batch of Mohr-Coulomb points gives each what it gives one alone", "[materials]")
+{
+  Random random(76);
+  const MohrCoulomb law = rock();
+  constexpr int count = 100;
+  std::array<double, count> xx, yy, zz, xy, exx, eyy, exy, mass, volume, strain, opening, dissipation;
+  std::vector<Point> alone;
+  for (int k = 0; k < count; ++k)
+  {
+    Point p;
+    p.stress = {random(-5e6, 1e5), random(-5e6, 1e5), random(-5e6, 1e5), random(-2e6, 2e6)};
+    p.state = {std::max(0.0, random(-0.01, 0.02)), std::max(0.0, random(-0.1, 0.1)), 0};
+    const Increment e = random_increment(random, 1e-3);
+    xx[k] = p.stress[0], yy[k] = p.stress[1], zz[k] = p.stress[2], xy[k] = p.stress[3];
+    exx[k] = e.xx, eyy[k] = e.yy, exy[k] = e.xy;
+    mass[k] = law.density;
+    volume[k] = std::exp(e.xx + e.yy);
+    strain[k] = p.state[0], opening[k] = p.state[1], dissipation[k] = 0;
+    alone.push_back(update(law, p, e));
+  }
+  double* state[] = {strain.data(), opening.data(), dissipation.data()};
+  law.update({count, xx.data(), yy.data(), zz.data(), xy.data(), exx.data(), eyy.data(), exy.data(),
+              mass.data(), volume.data()},
+             state, true);
+  for (int k = 0; k < count; ++k)
+  {
+    REQUIRE(std::array{xx[k], yy[k], zz[k], xy[k]} == alone[k].stress);
+    REQUIRE(std::array{strain[k], opening[k], dissipation[k]} == alone[k].state);
+  }
+}
+
+TEST_CASE("Mohr-Coulomb parameters that do not go together are refused", "[materials]")
+{
+  MohrCoulomb law = rock();
+  law.friction_residual = 40 * degree;
+  CHECK_THAT(law.resolve(1), Catch::StartsWith("friction_angle.residual: is above"));
+  law = rock();
+  law.cohesion_residual = 1e6;
+  CHECK_THAT(law.resolve(1), Catch::StartsWith("cohesion.residual: is above"));
+  law = rock();
+  law.dilation = 39 * degree;
+  CHECK_THAT(law.resolve(1), Catch::StartsWith("dilation_angle: is above"));
+  law = rock();
+  law.softening_strain = NAN;
+  CHECK_THAT(law.resolve(1), Catch::StartsWith("softening: give either"));
+  law.softening_displacement = 1.7;
+  CHECK(law.resolve(10).empty());
+  CHECK(law.softening_strain == Approx(1.7 / (std::sqrt(3.0) * 14.5)));
+  CHECK_THAT(law.note(),
+             Catch::Contains("tau = 0.623 sigma_n + 767 kPa") && Catch::Contains("0.324 sigma_n + 0 kPa"));
+}

@@ -1,0 +1,100 @@
+#include "test/verification/infinite_slope.hpp"
+
+#include "boundaries/mirrored_wall.hpp"
+#include "test/scenes.hpp"
+
+#include <numbers>
+
+namespace mpm::verification
+{
+namespace
+{
+constexpr double g = 9.81, angle = 14 * std::numbers::pi / 180;
+constexpr double block = 20, rock = 4; // thickness in m, and in cells
+constexpr double period = 1, triggered = 0.1;
+
+/// Acceleration of the rock along the slope, positive downwards: one period of a sine, uphill first, so that
+/// the block is left behind downhill.
+double shaking(const InfiniteSlope& slope, double t)
+{
+  return t < period ? -slope.pulse * std::sin(2 * std::numbers::pi * t / period) : 0;
+}
+
+/// Gravity presses and pulls, every stress in equilibrium and equal in all directions but for the shear.
+void stress_by_weight(Domain& domain, double top)
+{
+  Particles& p = domain.particles;
+  for (std::size_t m = 0; m < domain.materials.size(); ++m)
+    for (int k = domain.material_begin[m]; k < domain.material_begin[m + 1]; ++k)
+    {
+      const double weight = domain.materials[m].elastic().density * g * (top - p.y[k]);
+      p.stress_xx[k] = p.stress_yy[k] = p.stress_zz[k] = -weight * std::cos(angle);
+      p.stress_xy[k] = weight * std::sin(angle);
+    }
+}
+} // namespace
+
+Slide slide(const InfiniteSlope& slope)
+{
+  const double h = slope.spacing, zone = h * (rock + slope.zone_cells), top = zone + block;
+  Elastic stiff = slope.law;
+  Domain domain = scenes::make_domain({{stiff, {0, 0, h, h * rock}, h / 2},
+                                       {slope.law, {0, h * rock, h, h * slope.zone_cells}, h / 2},
+                                       {stiff, {0, zone, h, block}, h / 2}},
+                                      h);
+  domain.grid.wrapped = true;
+  domain.boundaries.push_back(std::make_unique<MirroredWall>(Wall{Direction::y, 0, 1, false}));
+  sort_particles(domain);
+  stress_by_weight(domain, top);
+  domain.gravity_y = -g * std::cos(angle);
+
+  const double dt = 0.5 * h / stiff.pressure_speed();
+  const auto steps = static_cast<int>(std::ceil(slope.duration / dt));
+  const int highest = static_cast<int>(
+      std::max_element(domain.particles.y.begin(), domain.particles.y.end()) - domain.particles.y.begin());
+  const auto id = domain.particles.id[highest];
+  Slide result;
+  for (int k = 0; k < steps; ++k)
+  {
+    domain.time = k * dt;
+    // In the frame of the rock, which stands still here.
+    domain.gravity_x = g * std::sin(angle) - shaking(slope, domain.time + 0.5 * dt);
+    step(domain, dt);
+    const int top_particle = domain.place[id];
+    result.slip = domain.particles.x[top_particle] - domain.particles.reference_x[top_particle];
+    if (result.trigger == 0 && result.slip > triggered) result.trigger = domain.time + dt;
+  }
+  return result;
+}
+
+Slide rigid_block(const InfiniteSlope& slope)
+{
+  const double dt = 1e-4;
+  const auto acceleration = [&](double t, double slip)
+  {
+    const double strain = slip / (std::sqrt(3.0) * slope.law.thickness);
+    return g * std::sin(angle) - slope.law.mobilised(slope.law.friction(strain)) * g * std::cos(angle) -
+           shaking(slope, t);
+  };
+  Slide result;
+  double d = 0, v = 0;
+  for (int k = 0; k * dt < slope.duration; ++k)
+  {
+    const double t = k * dt;
+    if (v <= 0 && acceleration(t, d) <= 0)
+    {
+      v = 0;
+      continue;
+    }
+    const double v1 = v, a1 = acceleration(t, d);
+    const double v2 = v + 0.5 * dt * a1, a2 = acceleration(t + 0.5 * dt, d + 0.5 * dt * v1);
+    const double v3 = v + 0.5 * dt * a2, a3 = acceleration(t + 0.5 * dt, d + 0.5 * dt * v2);
+    const double v4 = v + dt * a3, a4 = acceleration(t + dt, d + dt * v3);
+    d += dt / 6 * (v1 + 2 * v2 + 2 * v3 + v4);
+    v += dt / 6 * (a1 + 2 * a2 + 2 * a3 + a4);
+    if (result.trigger == 0 && d > triggered) result.trigger = t + dt;
+  }
+  result.slip = d;
+  return result;
+}
+} // namespace mpm::verification

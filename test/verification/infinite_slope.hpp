@@ -1,0 +1,30 @@
+#pragma once
+
+#include "materials/slip_weakening.hpp"
+
+namespace mpm::verification
+{
+/// A block 20 m thick on a weak zone on rock, an infinite slope at 14 degrees, shaken along it: one pulse of
+/// the rock's acceleration, down-slope end first.
+struct InfiniteSlope
+{
+  SlipWeakening law;         ///< of the zone
+  double spacing = 1;        ///< m
+  int zone_cells = 3;        ///< thickness of the zone
+  double pulse = 0.5 * 9.81; ///< peak acceleration of the rock, m/s2
+  double duration = 4;       ///< s
+};
+
+struct Slide
+{
+  double trigger = 0; ///< time when the slip passes 0.1 m, s
+  double slip = 0;    ///< at the end, m
+};
+
+/// The slope by the material point method, a column of one cell's width.
+Slide slide(const InfiniteSlope& slope);
+
+/// The same block, rigid, on a plane: d'' = g sin - tau/sigma_n(d) g cos - a(t), by Runge-Kutta steps of 1e-4
+/// s (Newmark 1965, with friction that weakens).
+Slide rigid_block(const InfiniteSlope& slope);
+} // namespace mpm::verification
