@@ -1,6 +1,6 @@
 #pragma once
 
-#include "boundaries/faces.hpp"
+#include "boundaries/base_spring.hpp"
 #include "boundaries/ground_motion.hpp"
 
 #include <algorithm>
@@ -40,23 +40,36 @@ struct IncomingWave
 };
 
 /// Compliant base (paper eq. 4): viscous dashpots on the bottom row whose far end moves with twice the
-/// upgoing velocity; the static reaction is that of the frozen images.
+/// upgoing velocity; the static reaction is that of the frozen images. A spring, where there is one, keeps
+/// the base from drifting away from the free field.
 class CompliantBase final : public Boundary
 {
 public:
   /// `faces` is empty when a checkpoint is going to be loaded.
-  CompliantBase(std::vector<Face> faces, std::shared_ptr<const IncomingWave> wave)
-      : faces_(std::move(faces)), wave_(std::move(wave))
+  CompliantBase(std::vector<Face> faces, std::shared_ptr<const IncomingWave> wave, BaseSpring spring)
+      : faces_(std::move(faces)), wave_(std::move(wave)), spring_(std::move(spring))
   {
   }
   std::string_view name() const override { return "base"; }
   bool absorbs() const override { return true; }
   void add_forces(Domain& domain, double dt) override;
   void measure_work(const Domain& domain, double dt, Energies& now) const override;
-  void visit_state(StateVisitor& visitor) override { visit_faces(visitor, "face_", faces_); }
+  void visit_state(StateVisitor& visitor) override;
+  /// Where the free field's base stands at the start of the step to come; without columns the free field goes
+  /// where the input takes it.
+  void follow(std::vector<FreeFieldBase> free_field) { free_field_ = std::move(free_field); }
+  /// How far the base stands from a free field now.
+  BaseDrift drift(const Domain& domain, const std::vector<FreeFieldBase>& free_field) const;
 
 private:
-  std::vector<Face> faces_;
+  std::array<double, 2> distance(const Domain& domain, const std::vector<FreeFieldBase>& free_field,
+                                 const Face& face) const;
+  void stretch_spring(const Domain& domain, double dt);
+
+  std::vector<Face> faces_; ///< from the left to the right
   std::shared_ptr<const IncomingWave> wave_;
+  BaseSpring spring_;
+  std::vector<FreeFieldBase> free_field_;
+  std::vector<std::array<double, 2>> input_{{}}; ///< one entry: integral of twice the upgoing velocity, m
 };
 } // namespace mpm

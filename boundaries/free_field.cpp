@@ -12,7 +12,8 @@ namespace
 constexpr double strip = 4; // cells of ghost rows beyond the face, as for frozen images
 }
 
-FreeFieldColumn::FreeFieldColumn(std::unique_ptr<Domain> owned) : domain(std::move(owned))
+FreeFieldColumn::FreeFieldColumn(std::unique_ptr<Domain> owned, double side)
+    : domain(std::move(owned)), side_(side)
 {
   const Particles& p = domain->particles;
   ids_ = p.id;
@@ -68,6 +69,13 @@ std::vector<Eigen::Matrix2d> FreeFieldColumn::stress_of_rows() const
     result.push_back(p.volume[k] * sigma);
   }
   return result;
+}
+
+FreeFieldBase FreeFieldColumn::base() const
+{
+  const Particles& p = domain->particles;
+  const int k = particle_of_row(0);
+  return {side_, {p.x[k] - p.reference_x[k], p.y[k] - p.reference_y[k]}};
 }
 
 void FreeFieldSide::begin(const Domain& domain, double position, double bottom, double size)

@@ -10,7 +10,8 @@ namespace mpm
 class FreeFieldColumn
 {
 public:
-  explicit FreeFieldColumn(std::unique_ptr<Domain> domain);
+  /// `side` is where the model's side stands, m.
+  FreeFieldColumn(std::unique_ptr<Domain> domain, double side);
 
   /// Advances the column over the step that the model will make next, keeping the stress at the step's start.
   void advance(double time, double dt);
@@ -20,6 +21,8 @@ public:
   int rows() const { return static_cast<int>(ids_.size()); }
   /// V sigma (N m per m) of the rows as they are now.
   std::vector<Eigen::Matrix2d> stress_of_rows() const;
+  /// Displacement of the lowest row as it is now, and the side below which it stands.
+  FreeFieldBase base() const;
 
   std::unique_ptr<Domain> domain;
   std::vector<Eigen::Matrix2d> stress;         ///< of the rows, at the step's start
@@ -32,6 +35,7 @@ public:
 
 private:
   void note_motion(double dt);
+  double side_;
   std::vector<std::int64_t> ids_; ///< from the bottom up
 };
 

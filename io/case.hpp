@@ -106,11 +106,16 @@ struct MotionSettings
   double end_time = std::numeric_limits<double>::infinity(); ///< s, where `end` is time
 };
 
+/// Time T (s) of the compliant base's spring, see BaseSpring; 0: no spring; empty: the ground's own, see
+/// spring_time().
+using SpringTime = std::optional<double>;
+
 /// `seismic`. The kinds of base and sides rule the free-field columns of the static stage too.
 struct SeismicSettings
 {
   double duration = 0; ///< s; 0: the case has no seismic section
   BaseKind base = BaseKind::compliant;
+  SpringTime spring;
   SideKind sides = SideKind::free_field;
   MotionSettings motion;
 };
@@ -172,6 +177,9 @@ struct Case
   std::vector<Layer> layers(double from, double to) const;
   /// Height of the ground at x in m; the domain's bottom where there is none.
   double ground_height(double x) const;
+  /// Longest period of level ground anywhere in the domain: four times the travel time of S waves from the
+  /// bottom to the surface, s.
+  double longest_period() const;
 };
 
 /// Fields that a frame can hold: those of every particle, and the laws' history variables.

@@ -193,6 +193,20 @@ double Case::ground_height(double x) const
   return column.empty() ? domain.bottom : column.back().top;
 }
 
+double Case::longest_period() const
+{
+  double longest = 0;
+  for (double x = domain.left; x < domain.right - 0.5 * grid.spacing; x += grid.spacing)
+  {
+    double travel = 0;
+    for (const Layer& layer : layers(x, x + grid.spacing))
+      travel +=
+          (layer.top - layer.bottom) / materials[regions[layer.region].material].elastic().shear_speed();
+    longest = std::max(longest, 4 * travel);
+  }
+  return longest;
+}
+
 void check_geometry(Case& scene, const YamlNode& tree, Problems& problems)
 {
   check_width(scene, tree, problems);

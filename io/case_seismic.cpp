@@ -78,6 +78,22 @@ void read_end(Section& motion, MotionSettings& settings, Problems& problems)
                    suggestion(node->text, {"never", "self_driven"}));
 }
 
+/// `none`, `auto` or a time.
+SpringTime read_spring(Section& base, BaseKind kind, Problems& problems)
+{
+  const YamlNode* node = base.find("spring");
+  if (!node || node->text == "auto") return {};
+  if (node->text == "none") return 0;
+  if (node->kind == YamlNode::Kind::scalar && parse_quantity(node->text, Dimension::time).problem.empty())
+  {
+    if (kind == BaseKind::fixed) base.error("spring", "a fixed base has no spring; leave it out");
+    return read_number(*node, Dimension::time, Range::positive(), problems);
+  }
+  problems.add(node->place, node->path,
+               "must be none, auto or a time as '1 s'" + suggestion(node->text, {"none", "auto"}));
+  return {};
+}
+
 MotionSettings read_motion(Section motion, const std::filesystem::path& folder, Problems& problems)
 {
   MotionSettings settings;
@@ -108,6 +124,7 @@ SeismicSettings read_seismic(Section& root, const std::filesystem::path& folder,
   {
     Section base = section.optional_section("base");
     settings.base = static_cast<BaseKind>(base.choice_or(0, "kind", {"compliant", "fixed"}));
+    settings.spring = read_spring(base, settings.base, problems);
     Section sides = section.optional_section("sides");
     settings.sides = static_cast<SideKind>(sides.choice_or(0, "kind", {"free_field", "quiet", "roller"}));
   }

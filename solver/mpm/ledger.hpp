@@ -45,7 +45,7 @@ inline constexpr std::array<EnergyTerm, 11> energy_terms{{
     {"radiated_base", 1, "downgoing waves: impedance (v - v_up)^2 at the base"},
     {"radiated_sides", 1, "scattered waves: impedance (v - v_column)^2 at the sides"},
     {"incoming", -1, "upgoing wave: impedance v_up^2 at the base"},
-    {"static_reaction", -1, "work of the static reaction of walls that have gone"},
+    {"static_reaction", -1, "work of the static reaction of walls that have gone, and of the base's spring"},
     {"free_field", -1, "work of the free-field columns' stress and motion at the sides"},
 }};
 

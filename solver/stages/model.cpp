@@ -46,7 +46,7 @@ std::unique_ptr<FreeFieldColumn> make_column(const Case& scene, const std::vecto
   domain->grid.wrapped = true;
   plant(*domain, scene, rows);
   sort_particles(*domain);
-  return std::make_unique<FreeFieldColumn>(std::move(domain));
+  return std::make_unique<FreeFieldColumn>(std::move(domain), side);
 }
 
 int cells_across(const Case& scene)
@@ -82,21 +82,26 @@ void come_to_rest(Domain& domain)
     std::fill(values->begin(), values->end(), 0.0);
 }
 
-/// Walls that stay, images for those that leave, and the compliant base.
-void switch_boundaries(Domain& domain, const Case& scene, std::span<const Wall> leaving,
-                       std::span<const Wall> staying, const std::shared_ptr<const IncomingWave>& wave,
-                       bool restarting)
+/// Walls that stay, images for those that leave, and the compliant base, which is returned (null: there is
+/// none).
+CompliantBase* switch_boundaries(Domain& domain, const Case& scene, std::span<const Wall> leaving,
+                                 std::span<const Wall> staying,
+                                 const std::shared_ptr<const IncomingWave>& wave, BaseSpring spring,
+                                 bool restarting)
 {
   std::vector<Image> images;
   if (!restarting) images = make_images(domain, leaving);
   domain.boundaries.clear();
   domain.boundaries.push_back(std::make_unique<FrozenImages>(std::move(images)));
   add_walls(domain, staying);
-  if (scene.seismic.base == BaseKind::fixed) return;
+  if (scene.seismic.base == BaseKind::fixed) return nullptr;
   std::vector<Face> faces;
   if (!restarting)
     faces = find_faces(domain, Edge::bottom, scene.domain.bottom, scene.grid.particle_spacing());
-  domain.boundaries.push_back(std::make_unique<CompliantBase>(std::move(faces), wave));
+  auto base = std::make_unique<CompliantBase>(std::move(faces), wave, std::move(spring));
+  CompliantBase* const result = base.get();
+  domain.boundaries.push_back(std::move(base));
+  return result;
 }
 } // namespace
 
@@ -151,7 +156,11 @@ void add_seismic_boundaries(Model& model, const Case& scene, std::shared_ptr<con
         domain.damping = 0;
         domain.gravity_y = -scene.statics.gravity;
         domain.plastic = true;
-        switch_boundaries(domain, scene, leaving, staying, wave, restarting);
+        // A column goes where the input takes it, with nothing on one side of it that could push it away.
+        const BaseSpring spring(column.empty() ? spring_time(scene) : 0);
+        CompliantBase* const base =
+            switch_boundaries(domain, scene, leaving, staying, wave, spring, restarting);
+        if (column.empty()) model.base = base;
       });
   if (!roller)
     for (const Edge edge : {Edge::left, Edge::right})
@@ -172,8 +181,22 @@ void add_seismic_boundaries(Model& model, const Case& scene, std::shared_ptr<con
       });
 }
 
+std::vector<FreeFieldBase> free_field_base(const Model& model)
+{
+  std::vector<FreeFieldBase> result;
+  for (const FreeFieldColumn* column : {model.left.get(), model.right.get()})
+    if (column) result.push_back(column->base());
+  return result;
+}
+
+double spring_time(const Case& scene)
+{
+  return scene.seismic.spring.value_or(scene.longest_period());
+}
+
 void advance(Model& model, double time, double dt)
 {
+  if (model.base) model.base->follow(free_field_base(model));
   const auto column = [=](FreeFieldColumn* c)
   {
     if (c) c->advance(time, dt);

@@ -12,6 +12,7 @@ struct Model
   std::unique_ptr<FreeFieldColumn> left, right;
   std::vector<double> reference_volume; ///< by particle id, m3 per m
   std::vector<const FreeFieldSide*> sides;
+  CompliantBase* base = nullptr; ///< of `main`; null on a fixed base and before the switch
 
   /// f(domain, name) for the model ("" as name) and each column ("left", "right").
   template <class Function>
@@ -34,6 +35,14 @@ void add_static_boundaries(Model& model, const Case& scene);
 /// checkpoint to fill.
 void add_seismic_boundaries(Model& model, const Case& scene, std::shared_ptr<const IncomingWave> wave,
                             bool restarting);
+
+/// Where the columns' bases stand now; empty without columns.
+std::vector<FreeFieldBase> free_field_base(const Model& model);
+
+/// Time T of the base's spring in s, 0 for none: the case's, or the ground's longest period, so that what the
+/// ground answers to is reflected by no more than 1 / (1 + (2 pi)^2) = 2.5 % of its amplitude (see
+/// BaseSpring).
+double spring_time(const Case& scene);
 
 /// Advances columns, then the model, from `time` over `dt` s.
 void advance(Model& model, double time, double dt);

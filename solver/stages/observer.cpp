@@ -97,6 +97,11 @@ void Observer::add_series()
   upgoing_ = history_.add_series("motion/upgoing_velocity", "m/s", {component}, fast_);
   slide_.add_series(history_, slow_);
   add_ledgers();
+  if (session_.scene.seismic.base == BaseKind::fixed) return;
+  corner_ =
+      history_.add_series("base/corner_displacement", "m", {{"corner", {"left", "right"}}, component}, slow_);
+  rotation_ = history_.add_series("base/rotation", "rad", {}, slow_);
+  greatest_drift_ = history_.add_series("base/greatest_displacement", "m", {}, slow_);
 }
 
 void Observer::add_ledgers()
@@ -181,6 +186,7 @@ void Observer::sample_slide(const Clock& clock)
   history_.start_row(clock.time(), slow_);
   slide_.sample(history_, clock.time());
   sample_energy();
+  sample_base();
 }
 
 void Observer::sample_energy()
@@ -191,6 +197,17 @@ void Observer::sample_energy()
     for (std::size_t k = 0; k < energy_terms.size(); ++k) history_.record(ledger.terms[k], e.value[k]);
     history_.record(ledger.residual, residual(e));
   }
+}
+
+/// The base relative to the free field.
+void Observer::sample_base()
+{
+  if (!model_.base) return;
+  const BaseDrift drift = model_.base->drift(*model_.main, free_field_base(model_));
+  const auto& [left, right] = drift.corner;
+  history_.record(corner_, std::array{left[0], left[1], right[0], right[1]});
+  history_.record(rotation_, drift.rotation);
+  history_.record(greatest_drift_, drift.greatest);
 }
 
 void Observer::write_frame(const Clock& clock)
@@ -255,6 +272,13 @@ nlohmann::json Observer::summary() const
     const Tracer& t = model_.main->tracers[g];
     gauges[points[g].name] = {{"displacement", {t.x - t.reference_x, t.y - t.reference_y}}};
   }
-  return {{"slide", slide_.summary()}, {"gauges", gauges}};
+  nlohmann::json result{{"slide", slide_.summary()}, {"gauges", gauges}};
+  if (!model_.base) return result;
+  const BaseDrift drift = model_.base->drift(*model_.main, free_field_base(model_));
+  result["base"] = {{"corner_displacement", {{"left", drift.corner[0]}, {"right", drift.corner[1]}}},
+                    {"rotation", drift.rotation},
+                    {"greatest_displacement", drift.greatest},
+                    {"spring_time", spring_time(session_.scene)}};
+  return result;
 }
 } // namespace mpm

@@ -42,6 +42,7 @@ private:
   void sample_gauges(const Clock& clock);
   void sample_slide(const Clock& clock);
   void sample_energy();
+  void sample_base();
   void write_frame(const Clock& clock);
 
   Session& session_;
@@ -52,6 +53,7 @@ private:
   History::Series displacement_ = 0, velocity_ = 0, acceleration_ = 0, upgoing_ = 0;
   Slide slide_;
   std::vector<LedgerSeries> ledgers_;
+  History::Series corner_ = 0, rotation_ = 0, greatest_drift_ = 0;
   std::vector<Side> sides_;
   std::vector<double> last_velocity_; ///< of the gauges at their last sample, m/s
   double last_time_ = 0;

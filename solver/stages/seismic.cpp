@@ -19,8 +19,9 @@ namespace mpm
 {
 namespace
 {
-constexpr int check_every = 100;      // steps between looks at particles and wave speeds
-constexpr double courant_limit = 0.7; // beyond it the step is shortened (METHODS section 7)
+constexpr int check_every = 100;         // steps between looks at particles and wave speeds
+constexpr double base_drift_limit = 0.1; // cells that the base may end away from the free field
+constexpr double courant_limit = 0.7;    // beyond it the step is shortened (METHODS section 7)
 
 /// A step within the case's Courant number that divides the gauges' interval, so that they are sampled
 /// evenly.
@@ -70,9 +71,30 @@ void check_step(Session& session, const Model& model, Clock& clock)
       clock.time(), speed, clock.dt);
 }
 
+/// Where the base has gone that the input did not take it, and a warning when that is more than a tenth of a
+/// cell.
+void report_base(Session& session, const Model& model)
+{
+  if (!model.base) return;
+  const BaseDrift drift = model.base->drift(*model.main, free_field_base(model));
+  const auto& [left, right] = drift.corner;
+  session.log.info(
+      "base at the end, relative to the free field: left end {:+.4f} m across and {:+.4f} m up, right "
+      "end {:+.4f} m and {:+.4f} m, up to {:.4f} m in between; turned by {:+.2e} rad",
+      left[0], left[1], right[0], right[1], drift.greatest, drift.rotation);
+  const double bound = base_drift_limit * session.scene.grid.spacing;
+  const double edge = std::fabs(drift.rotation) * drift.half_length;
+  if (drift.greatest <= bound && edge <= bound) return;
+  session.log.warn(
+      "the base has drifted: it stands up to {:.3f} m from where the input takes it ({:.3f} m at its ends "
+      "by rotation), more than {} cells; give seismic.base.spring a shorter time or deepen the rock",
+      drift.greatest, edge, base_drift_limit);
+}
+
 /// What the engineer must know of the boundaries at the end.
 void report_boundaries(Session& session, const Model& model)
 {
+  report_base(session, model);
   for (const FreeFieldSide* side : model.sides)
   {
     const double apart = side->separation(*model.main);
@@ -147,6 +169,12 @@ private:
                     greatest_speed(*model_.main)};
     };
     report_wave_fidelity(session_, clock.dt, motion_.wave.get());
+    if (model_.base)
+    {
+      const double time = spring_time(session_.scene);
+      session_.log.info("base spring: {}",
+                        time > 0 ? fmt::format("{:.2f} s", time) : "none; the base may drift");
+    }
     session_.log.info("seismic stage: {} particles, dt = {:.3e} s, {} s", model_.main->particles.size(),
                       clock.dt, duration);
     session_.loop_begins(clock.step);

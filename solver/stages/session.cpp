@@ -251,7 +251,7 @@ std::vector<std::string> ground_settings(const Case& scene)
   std::vector<std::string> lines;
   for (const auto& [key, value] : settings_with_digests(scene))
     for (const std::string_view part : {"grid.", "domain.", "surfaces.", "regions", "materials.",
-                                        "static.gravity", "seismic.base", "seismic.sides"})
+                                        "static.gravity", "seismic.base.kind", "seismic.sides"})
       if (key.starts_with(part)) lines.push_back(key + " = " + value);
   return lines;
 }

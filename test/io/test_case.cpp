@@ -105,6 +105,21 @@ TEST_CASE("A small case gets the documented defaults", "[io]")
   CHECK(scene.materials[0].model() == "elastic");
   CHECK(scene.materials[0].elastic().young == 40e6);
   CHECK(scene.ground_height(20) == 10);
+  CHECK(scene.longest_period() == Approx(4 * 10 / scene.materials[0].elastic().shear_speed()));
+}
+
+TEST_CASE("The base's spring is none, the ground's own or a time", "[io]")
+{
+  const auto base = [](const std::string& keys)
+  { return small + "seismic: {duration: 1 s, base: {" + keys + "}}\n"; };
+  CHECK_FALSE(load(base("kind: compliant")).seismic.spring);
+  CHECK_FALSE(load(base("spring: auto")).seismic.spring);
+  CHECK(load(base("spring: none")).seismic.spring == 0);
+  CHECK(load(base("spring: 500 ms")).seismic.spring == 0.5);
+  CHECK_THAT(refusal(base("spring: 0 s")), Contains("seismic.base.spring") && Contains("above 0 s"));
+  CHECK_THAT(refusal(base("spring: 5 m")), Contains("seismic.base.spring: must be none, auto or a time"));
+  CHECK_THAT(refusal(base("spring: off")), Contains("seismic.base.spring: must be none, auto or a time"));
+  CHECK_THAT(refusal(base("kind: fixed, spring: 1 s")), Contains("a fixed base has no spring"));
 }
 
 TEST_CASE("Every section of a case is read", "[io]")
