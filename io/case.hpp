@@ -117,6 +117,7 @@ struct SeismicSettings
   BaseKind base = BaseKind::compliant;
   SpringTime spring;
   SideKind sides = SideKind::free_field;
+  double flip_blend = 0; ///< share of FLIP in the velocity update until ground slides
   MotionSettings motion;
 };
 

@@ -128,6 +128,8 @@ SeismicSettings read_seismic(Section& root, const std::filesystem::path& folder,
     Section sides = section.optional_section("sides");
     settings.sides = static_cast<SideKind>(sides.choice_or(0, "kind", {"free_field", "quiet", "roller"}));
   }
+  settings.flip_blend =
+      section.number_or(0, "flip_blend", Dimension::none, {.lower = 0, .upper = 1, .upper_allowed = false});
   settings.motion = read_motion(section.optional_section("motion"), folder, problems);
   return settings;
 }

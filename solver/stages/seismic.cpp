@@ -8,6 +8,7 @@
 #include "solver/mpm/parallel.hpp"
 #include "solver/stages/energy_watch.hpp"
 #include "solver/stages/fidelity.hpp"
+#include "solver/stages/flip_blend.hpp"
 #include "solver/stages/motion.hpp"
 #include "solver/stages/observer.hpp"
 #include "solver/stages/predict.hpp"
@@ -122,7 +123,7 @@ class Shaking
 public:
   Shaking(Session& session, Model& model, const Motion& motion)
       : session_(session), model_(model), motion_(motion), observer_(session, model, *motion.wave),
-        energy_(session, model)
+        energy_(session, model), flip_(session.scene.seismic.flip_blend)
   {
   }
 
@@ -140,6 +141,7 @@ public:
     load_model(file, model_, clock);
     observer_.load(file);
     self_driven_.load(file.open_group("motion"));
+    flip_.load(file.open_group("motion"));
     fade_when_self_driven();
   }
 
@@ -180,9 +182,12 @@ private:
     session_.loop_begins(clock.step);
     while (clock.time() < duration * (1 - 1e-9))
     {
+      model_.for_each_domain([&](Domain& domain, const std::string&)
+                             { domain.flip_blend = flip_.at(clock.time()); });
       advance(model_, clock.time(), clock.dt);
       ++clock.step;
       observer_.look(clock, false);
+      flip_.note(observer_.slide().now().area > 0, clock.time());
       end_motion();
       if (clock.step % check_every == 0)
       {
@@ -248,6 +253,7 @@ private:
                                 for (const auto& [key, value] : motion_.identity)
                                   motion.attribute(key, value);
                                 self_driven_.save(motion);
+                                flip_.save(motion);
                               });
     observer_.write();
     session_.folder->prune(session_.scene.output.checkpoint.keep);
@@ -271,6 +277,7 @@ private:
   Observer observer_;
   EnergyWatch energy_;
   SelfDriven self_driven_;
+  FlipBlend flip_;
 };
 
 int run_seismic(Session& session)

@@ -16,6 +16,7 @@ std::span<const LadderCase> ladder_cases()
       LadderCase{"free_vibration", run_free_vibration}, // V7
       LadderCase{"layer", run_site},                    // V8
       LadderCase{"layer_courant", run_layer_courant},   // V8
+      LadderCase{"layer_flip", run_layer_flip},         // V8
       LadderCase{"two_layers", run_site},               // V9
       LadderCase{"layer_p", run_site},                  // V10
       LadderCase{"uniform_column", run_uniform_column}, // V10, V11

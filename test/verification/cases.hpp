@@ -18,6 +18,7 @@ Findings run_uniform_column(const std::filesystem::path& folder, double spacing)
 Findings run_site(const std::filesystem::path& folder, double spacing);
 /// The layer at one spacing; the resolution is the Courant number.
 Findings run_layer_courant(const std::filesystem::path& folder, double courant);
+Findings run_layer_flip(const std::filesystem::path& folder, double share);
 /// An elastic slope against finite elements.
 Findings run_hill(const std::filesystem::path& folder, double spacing);
 } // namespace mpm::verification

@@ -39,6 +39,7 @@ Trace shake_column(const Case& scene, std::shared_ptr<const IncomingWave> wave, 
   Model model = make_model(scene);
   add_seismic_boundaries(model, scene, wave, false);
   FreeFieldColumn& column = *model.left;
+  column.domain->flip_blend = scene.seismic.flip_blend;
   // A gauge on the ground surface; the outermost particle sits half a particle distance below it.
   column.domain->tracers.push_back({0.5 * scene.grid.spacing, scene.ground_height(0), 0, 0, 0, 0});
   const double dt = step_dividing(every, scene, *column.domain);

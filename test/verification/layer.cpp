@@ -51,4 +51,14 @@ Findings run_layer_courant(const std::filesystem::path& folder, double courant)
   const Case scene = load_case(folder / "../layer/case.yaml", {"time_step.safety=" + number_text(courant)});
   return amplify(scene, folder / "../layer");
 }
+
+Findings run_layer_flip(const std::filesystem::path& folder, double share)
+{
+  const std::string flip = "seismic.flip_blend=" + number_text(share);
+  Findings usual = amplify(load_case(folder / "../layer/case.yaml", {flip}), folder / "../layer");
+  const Findings small =
+      amplify(load_case(folder / "../layer/case.yaml", {flip, "time_step.safety=0.1"}), folder / "../layer");
+  usual.errors["small steps"] = small.errors.at("amplification");
+  return usual;
+}
 } // namespace mpm::verification
