@@ -149,8 +149,8 @@ TEST_CASE("a record of 60 s on a slope that fails leaves the base where the inpu
 
 TEST_CASE("ground of different height at its sides stays still without input (34)", "[stages]")
 {
-  // METHODS tests 16 and 34: displacement below 1e-4 h. What is left of the static stage lets the slope creep
-  // slowly.
+  // METHODS tests 16 and 34: displacement below 1e-4 h, and none to come in as much time again. What the
+  // static stage leaves unbalanced still creeps.
   const Case scene = scene_from(slope("strength: {peak: 1 MPa}", "auto", 2.5));
   Model model = make_model(scene);
   relax(model, scene, 30, true);
@@ -158,5 +158,5 @@ TEST_CASE("ground of different height at its sides stays still without input (34
   const double speed = greatest_speed(*model.main);
   INFO("base off by " << drift.greatest << " m, speed " << speed);
   CHECK(drift.greatest < 1e-4 * scene.grid.spacing);
-  CHECK(speed < 1e-6);
+  CHECK(speed * 20 < 1e-4 * scene.grid.spacing);
 }
