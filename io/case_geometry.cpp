@@ -102,6 +102,34 @@ double variation(const Case& scene, const Surface& surface, double from, double 
   return high - low;
 }
 
+/// A free-field column cannot stand for a slope. Over the cells whose nodes the side's ghost rows reach, the
+/// ground may rise or fall by a cell: more is a slope face, not unevenness.
+void refuse_slopes_on_sides(const Case& scene, const YamlNode& tree, Problems& problems)
+{
+  if (scene.seismic.sides != SideKind::free_field) return;
+  constexpr int reach = 4; // cells
+  const double h = scene.grid.spacing, strip = std::min(reach * h, scene.domain.width());
+  for (const auto& [side, from] :
+       {std::pair{"left", scene.domain.left}, std::pair{"right", scene.domain.right - strip}})
+  {
+    double low = INFINITY, high = -INFINITY;
+    for (int i = 0; i <= 100; ++i)
+    {
+      const double y = scene.ground_height(from + strip * i / 100);
+      low = std::min(low, y);
+      high = std::max(high, y);
+    }
+    if (high - low <= h) continue;
+    const YamlNode& x = *at(tree, {"domain", "x"});
+    problems.add(
+        x.place, x.path,
+        "cuts a slope face: the ground rises or falls by " + metres(high - low) + " within " + metres(strip) +
+            " of the " + side +
+            " side, where a free-field column stands for level ground; move the side outwards by a slope "
+            "height or more, or take seismic.sides.kind quiet or roller");
+  }
+}
+
 /// A free-field column stands for level layers: METHODS section 5 asks for one slope height of them.
 void warn_of_slopes_at_sides(Case& scene)
 {
@@ -213,6 +241,7 @@ void check_geometry(Case& scene, const YamlNode& tree, Problems& problems)
   check_regions(scene, tree, problems);
   if (problems.count() > 0) return;
   check_gauges(scene, tree, problems);
+  refuse_slopes_on_sides(scene, tree, problems);
   warn_of_slopes_at_sides(scene);
   warn_of_materials(scene);
   warn_of_short_profiles(scene);

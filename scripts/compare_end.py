@@ -18,8 +18,9 @@ from matplotlib.colors import Normalize
 
 import plot_sections
 from plot_common import WIDTH, array, frame_times, group_of, open_history, read_summary, save
-from plot_page import measures, read_outline
-from plot_run import Parser
+from plot_common import Parser
+from plot_histories import read_outline
+from plot_page import measures
 
 PROGRAM = Path(__file__).resolve().parent.parent / "build" / "mpm-seismic"
 ENDS = {"self_driven": "motion until self-driven", "never": "whole motion"}

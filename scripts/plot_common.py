@@ -1,4 +1,5 @@
 """What the pictures of a run share: reading its files tolerantly, writing a picture."""
+import argparse
 import json
 import os
 import sys
@@ -14,6 +15,13 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 WIDTH = 10.0  # inches, of every picture
+
+
+class Parser(argparse.ArgumentParser):
+    """Ends with 64, as the solver does, on a wrong command line."""
+
+    def error(self, message):
+        self.exit(64, f"{self.prog}: {message}; see {self.prog} --help\n")
 
 
 class Missing(Exception):

@@ -27,6 +27,12 @@ def read_motion(file):
     return time, velocity.reshape(len(time), -1)
 
 
+def read_outline(file):
+    """x and heights of the free surface at the start and at the end (m)."""
+    group = group_of(file, "outline")
+    return array(group, "x"), array(group, "start"), array(group, "end")
+
+
 def surface_motions(file):
     """(label, time in s, velocity in m/s [time, component]) of the gauges and of the free-field surfaces."""
     found = []

@@ -1,5 +1,6 @@
 """One page on a seismic run: section, histories, motion, measures, warnings, resolution and versions."""
 import re
+import sys
 from textwrap import fill
 
 import matplotlib.pyplot as plt
@@ -7,19 +8,14 @@ import numpy as np
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 
+import newmark
 import plot_sections
 import spectrum
 from plot_common import Missing, array, frame_times, group_of, open_history, read_summary, text
-from plot_histories import read_gauges, read_motion
+from plot_histories import read_gauges, read_motion, read_outline
 
 PAGE = (8.27, 11.69)  # inches, A4
 MOST_WARNINGS = 6
-
-
-def read_outline(file):
-    """x and heights of the free surface at the start and at the end (m)."""
-    group = group_of(file, "outline")
-    return array(group, "x"), array(group, "start"), array(group, "end")
 
 
 def draw_section(figure, axis, folder, outline):
@@ -149,10 +145,20 @@ def write_text(axis, x, title, lines, width):
     axis.text(x, 0.93, wrapped, fontsize=6.5, va="top", transform=axis.transAxes, linespacing=1.35)
 
 
-def draw_words(axis, summary):
+def rigid_block_of(folder):
+    """Rigid-block analysis of the run; None, and said so, where there is none."""
+    try:
+        return newmark.stored_or_estimated(folder)
+    except (Missing, KeyError, OSError) as reason:
+        print(f"plot-run: no rigid block beside the run: {reason}", file=sys.stderr)
+        return None
+
+
+def draw_words(axis, summary, block):
     """Measures on the left; warnings, resolution and versions on the right."""
     axis.axis("off")
-    write_text(axis, 0.0, "Measures", [f"{name}: {words}" for name, words in measures(summary)], 70)
+    beside = ["rigid block: " + "; ".join(newmark.lines_of(block))] if block else []
+    write_text(axis, 0.0, "Measures", [f"{name}: {words}" for name, words in measures(summary)] + beside, 70)
     warnings = [text(warning) for warning in summary.get("warnings", [])]
     more = [f"and {len(warnings) - MOST_WARNINGS} more, see log.txt"] if len(warnings) > MOST_WARNINGS else []
     lines = ["! " + warning for warning in warnings[:MOST_WARNINGS]] + more or ["no warnings"]
@@ -167,7 +173,8 @@ def page(folder, out, heading):
     trigger = summary["slide"]["trigger_time"]
     with plt.rc_context({"axes.titlesize": 8, "xtick.labelsize": 7, "ytick.labelsize": 7, "axes.labelsize": 7}):
         figure = plt.figure(figsize=PAGE, layout="constrained")
-        rows = figure.subfigures(4, 1, height_ratios=(3.4, 2.3, 2.3, 3.0))
+        block = rigid_block_of(folder)
+        rows = figure.subfigures(5 if block else 4, 1, height_ratios=(3.2, 2.1, 2.1, *([2.1] if block else []), 2.9))
         with open_history(folder) as file:
             draw_section(rows[0], rows[0].subplots(), folder, read_outline(file))
             for axis, draw in zip(np.append(rows[1].subplots(1, 2), rows[2].subplots(1, 2)),
@@ -175,7 +182,9 @@ def page(folder, out, heading):
                 draw(axis, file, trigger)
                 axis.grid(alpha=0.3)
                 axis.set_xlabel("time (s); dotted: trigger")
-        draw_words(rows[3].subplots(), summary)
+        if block:
+            newmark.draw(rows[3].subplots(), folder, block)
+        draw_words(rows[-1].subplots(), summary, block)
     figure.suptitle(heading, fontsize=11)
     path = out / "summary.png"
     figure.savefig(path, dpi=150)

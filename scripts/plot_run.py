@@ -3,7 +3,6 @@
 Whatever the folder holds is drawn, whatever it lacks is said. Exit 66 when there is nothing to draw.
 SI units, x right, y up, tension positive.
 """
-import argparse
 import sys
 from pathlib import Path
 
@@ -19,16 +18,9 @@ def time_list(given):
     return [float(part) for part in given.split(",")]
 
 
-class Parser(argparse.ArgumentParser):
-    """Ends with 64, as the solver does, on a wrong command line."""
-
-    def error(self, message):
-        self.exit(64, f"{self.prog}: {message}; see {self.prog} --help\n")
-
-
 def parse_arguments():
     """The command line."""
-    parser = Parser(prog="plot-run", description="Draws the results of a static or seismic run.")
+    parser = plot_common.Parser(prog="plot-run", description="Draws the results of a static or seismic run.")
     parser.add_argument("folder", type=Path, metavar="RUN_FOLDER", help="output folder of mpm-static or mpm-seismic")
     parser.add_argument("--times", type=time_list, metavar="t1,t2,...",
                         help="times (s) of the sections, the nearest frames are drawn; default six evenly spread")

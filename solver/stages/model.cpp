@@ -194,6 +194,23 @@ double spring_time(const Case& scene)
   return scene.seismic.spring.value_or(scene.longest_period());
 }
 
+double side_stress_mismatch(const Model& model, const Case& scene, Edge edge)
+{
+  const FreeFieldColumn* column = (edge == Edge::left ? model.left : model.right).get();
+  if (!column) return 0;
+  const Particles &p = model.main->particles, &q = column->domain->particles;
+  const double side = edge == Edge::left ? scene.domain.left : scene.domain.right;
+  double difference = 0, scale = 0;
+  for (int k = 0; k < p.size(); ++k)
+  {
+    if (std::fabs(p.reference_x[k] - side) > 0.75 * scene.grid.particle_spacing()) continue;
+    const double wanted = q.stress_xx[column->particle_of_row(column->row_near(p.reference_y[k]))];
+    difference += std::fabs(p.stress_xx[k] - wanted);
+    scale += std::fabs(wanted);
+  }
+  return scale > 0 ? difference / scale : 0;
+}
+
 void advance(Model& model, double time, double dt)
 {
   if (model.base) model.base->follow(free_field_base(model));

@@ -44,6 +44,10 @@ std::vector<FreeFieldBase> free_field_base(const Model& model);
 /// BaseSpring).
 double spring_time(const Case& scene);
 
+/// By how much sigma_xx of the model's outermost particles differs from their rows in the side's column: mean
+/// difference over mean column stress; 0 without a column. For the static state, before the switch.
+double side_stress_mismatch(const Model& model, const Case& scene, Edge edge);
+
 /// Advances columns, then the model, from `time` over `dt` s.
 void advance(Model& model, double time, double dt);
 

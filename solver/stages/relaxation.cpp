@@ -161,7 +161,11 @@ int Relaxation::run(Clock& clock)
     const bool measure = (clock.step + 1) % check_every == 0;
     step(clock, measure);
     if (measure) done = converged(clock);
-    if (clock.step % 100 == 0) check(clock);
+    if (clock.step % 100 == 0)
+    {
+      check(clock);
+      check_step(session_, model_, clock);
+    }
     if (progress.due()) progress.update(moment());
     if (!done && (session_.must_stop() || session_.checkpoint_due()))
     {

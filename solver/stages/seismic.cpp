@@ -22,7 +22,6 @@ namespace
 {
 constexpr int check_every = 100;         // steps between looks at particles and wave speeds
 constexpr double base_drift_limit = 0.1; // cells that the base may end away from the free field
-constexpr double courant_limit = 0.7;    // beyond it the step is shortened (METHODS section 7)
 
 /// A step within the case's Courant number that divides the gauges' interval, so that they are sampled
 /// evenly.
@@ -60,16 +59,22 @@ void load_static_state(const Session& session, Model& model)
       });
 }
 
-/// Shortens the step when the ground has become so loose that waves outrun it.
-void check_step(Session& session, const Model& model, Clock& clock)
+/// Tells where the model's side and its column do not agree before the shaking.
+void warn_of_unlike_columns(Session& session, const Model& model)
 {
-  const double h = session.scene.grid.spacing, speed = greatest_wave_speed(*model.main);
-  if (clock.dt * speed <= courant_limit * h) return;
-  clock.change_step(clock.dt / 2);
-  session.log.warn(
-      "t = {:.3f} s: the ground has loosened to a wave speed of {:.0f} m/s; the step is halved to {:.3e} s, "
-      "which doubles the numerical damping of waves",
-      clock.time(), speed, clock.dt);
+  constexpr double most = 0.1; // of the column's stress; level layers agree within a few hundredths
+  for (const Edge edge : {Edge::left, Edge::right})
+  {
+    const double mismatch = side_stress_mismatch(model, session.scene, edge);
+    const char* name = edge == Edge::left ? "left" : "right";
+    session.log.detail("{} side: sigma_xx differs from that of its free-field column by {:.1f} %", name,
+                       100 * mismatch);
+    if (mismatch > most)
+      session.log.warn(
+          "{} side: sigma_xx differs from that of its free-field column by {:.0f} % before the shaking; the "
+          "ground is not level there: widen the domain",
+          name, 100 * mismatch);
+  }
 }
 
 /// Where the base has gone that the input did not take it, and a warning when that is more than a tenth of a
@@ -130,6 +135,7 @@ public:
   void start(Clock& clock)
   {
     observer_.place_gauges();
+    warn_of_unlike_columns(session_, model_);
     add_seismic_boundaries(model_, session_.scene, motion_.wave, false);
     energy_.open();
     observer_.look(clock, true);

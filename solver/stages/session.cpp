@@ -15,6 +15,8 @@ namespace mpm
 namespace
 {
 constexpr std::string_view checkpoint_schema = "seismpm-checkpoint/1";
+constexpr double courant_limit = 0.7;    // beyond it the step is shortened (METHODS section 7),
+constexpr double stability_limit = 0.78; // or beyond this one in a case that starts that fast
 
 /// "2h", "90 min", "1800 s", in s.
 double parse_wall_time(std::string text)
@@ -254,6 +256,17 @@ std::vector<std::string> ground_settings(const Case& scene)
                                         "static.gravity", "seismic.base.kind", "seismic.sides"})
       if (key.starts_with(part)) lines.push_back(key + " = " + value);
   return lines;
+}
+
+void check_step(Session& session, const Model& model, Clock& clock)
+{
+  const double h = session.scene.grid.spacing, speed = greatest_wave_speed(*model.main);
+  const double limit = session.scene.safety < courant_limit ? courant_limit : stability_limit;
+  if (clock.dt * speed <= limit * h) return;
+  clock.change_step(clock.dt / 2);
+  session.log.warn(
+      "t = {:.3f} s: the ground has loosened to a wave speed of {:.0f} m/s; the step is halved to {:.3e} s",
+      clock.time(), speed, clock.dt);
 }
 
 int run_program(int argc, char** argv, const std::string& name, int (*stage)(Session&))

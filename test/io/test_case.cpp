@@ -461,6 +461,17 @@ TEST_CASE("Odd but possible ground is warned of", "[io]")
              Contains("leave a hollow in the ground at x = 0.5 m"));
 }
 
+TEST_CASE("A side that cuts a slope face is refused, unless it is no free-field side", "[io]")
+{
+  const std::string face = replaced(small, "[[0 m, 10 m]]", "[[0 m, 10 m], [37 m, 10 m], [40 m, 12 m]]");
+  CHECK_THAT(refusal(face),
+             Contains("case.yaml:3:13: domain.x: cuts a slope face: the ground rises or falls by 2 m within "
+                      "4 m of the right side"));
+  CHECK(load(face + "seismic: {duration: 1 s, sides: {kind: quiet}}\n").domain.right == 40);
+  const std::string uneven = replaced(small, "[[0 m, 10 m]]", "[[0 m, 10 m], [30 m, 10 m], [40 m, 12 m]]");
+  CHECK_THAT(load(uneven).warnings.at(0), Contains("wants level layers"));
+}
+
 TEST_CASE("A gauge outside the ground is refused", "[io]")
 {
   const std::string text = small + "output: {gauges: {points: {up: [5 m, 10.6 m]}}}\n";

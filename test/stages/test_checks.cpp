@@ -1,0 +1,61 @@
+// What a stage looks after while it goes.
+
+#include "solver/stages/session.hpp"
+#include "test/stages/ground.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace mpm;
+using namespace mpm::test;
+
+namespace
+{
+struct Stage
+{
+  TemporaryFolder folder;
+  Options options(const std::string& text) const
+  {
+    put(folder.path() / "case.yaml", text);
+    Options made;
+    made.case_file = folder.path() / "case.yaml";
+    made.verbosity = Verbosity::quiet;
+    return made;
+  }
+};
+} // namespace
+
+TEST_CASE("a step is halved when the ground has loosened so far that waves outrun it", "[stages]")
+{
+  const Stage stage;
+  Session session(stage.options(level_ground(1, 2, 8, 4, 8, 9.81)));
+  Model model = make_model(session.scene);
+  Clock clock;
+  clock.step = 10;
+  clock.dt = stable_step(session.scene, model);
+  const double dt = clock.dt, time = clock.time();
+  check_step(session, model, clock);
+  CHECK(clock.dt == dt);
+  // c_p goes with the root of the volume: 0.5 grows to 0.69, then to 0.71.
+  for (double& volume : model.main->particles.volume) volume *= 1.38 * 1.38;
+  check_step(session, model, clock);
+  CHECK(clock.dt == dt);
+  for (double& volume : model.main->particles.volume) volume *= (1.42 * 1.42) / (1.38 * 1.38);
+  check_step(session, model, clock);
+  CHECK(clock.dt == dt / 2);
+  CHECK(clock.time() == time);
+}
+
+TEST_CASE("the stress of a side is compared with that of its column", "[stages]")
+{
+  const Case scene = scene_from(level_ground(1, 2, 8, 4, 8, 9.81));
+  Model model = make_model(scene);
+  model.for_each_domain(
+      [](Domain& domain, const std::string& column)
+      {
+        Particles& p = domain.particles;
+        for (int k = 0; k < p.size(); ++k)
+          p.stress_xx[k] = -1e3 * (8 - p.reference_y[k]) * (column.empty() && p.reference_x[k] > 4 ? 1.2 : 1);
+      });
+  CHECK(side_stress_mismatch(model, scene, Edge::left) == 0);
+  CHECK(side_stress_mismatch(model, scene, Edge::right) == Approx(0.2));
+}
