@@ -4,7 +4,7 @@ import os
 import numpy
 
 SLOPE, GRAVITY, DENSITY, THICKNESS, STRENGTH = numpy.radians(14), 9.81, 2400.0, 20.0, 200e3
-STEP, EVERY, END = 1e-5, 0.02, 8.0  # s
+STEP, EVERY, END = 1e-5, 0.02, 6.6  # s
 
 
 def shaking(t):

@@ -106,6 +106,11 @@ TEST_CASE("A strip footing fails on clay, too strong by no more than was measure
   quick("strip_footing");
 }
 
+TEST_CASE("A vertical cut in clay stands too high by no more than was measured (V19)", "[verification]")
+{
+  quick("vertical_cut");
+}
+
 TEST_CASE("A block on a weak layer slides as Newmark's (V20)", "[verification]")
 {
   quick("sliding_block");

@@ -13,7 +13,7 @@ namespace
 constexpr double height = 5;       // m
 constexpr double elastic_time = 3; // s: gravity grows over a half of it, elastic
 constexpr double plastic_time = 3; // s, after which the cut must have come to rest or be on its way
-constexpr double gone = 0.02; // of the height: five times what yielding alone moves a cut that stands
+constexpr double gone = 0.02;      // of the height: five times what yielding alone moves a cut that stands
 constexpr double exact = 3.8;      // middle of the bounds of limit analysis
 
 void run(Domain& domain, double gravity, double ramp, double duration, double dt)
