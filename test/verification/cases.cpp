@@ -20,8 +20,14 @@ std::span<const LadderCase> ladder_cases()
       LadderCase{"two_layers", run_site},               // V9
       LadderCase{"layer_p", run_site},                  // V10
       LadderCase{"uniform_column", run_uniform_column}, // V10, V11
+      LadderCase{"absorption", run_absorption},         // V12
+      LadderCase{"line_load", run_line_load},           // V13
       LadderCase{"level_site", run_level_site},         // V14
       LadderCase{"hill", run_hill},                     // V15
+      LadderCase{"strip_footing", run_strip_footing},   // V16
+      LadderCase{"vertical_cut", run_vertical_cut},     // V19
+      LadderCase{"sliding_block", run_sliding_block},   // V20
+      LadderCase{"dam_break", run_dam_break},           // V21
   };
   return cases;
 }

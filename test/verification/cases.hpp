@@ -18,7 +18,20 @@ Findings run_uniform_column(const std::filesystem::path& folder, double spacing)
 Findings run_site(const std::filesystem::path& folder, double spacing);
 /// The layer at one spacing; the resolution is the Courant number.
 Findings run_layer_courant(const std::filesystem::path& folder, double courant);
+/// The layer at one spacing; the resolution is the share of FLIP.
 Findings run_layer_flip(const std::filesystem::path& folder, double share);
+/// Packets of P and S waves that meet the compliant base at an angle.
+Findings run_absorption(const std::filesystem::path& folder, double spacing);
+/// A load on the surface of a small box against one four times as large.
+Findings run_line_load(const std::filesystem::path& folder, double spacing);
 /// An elastic slope against finite elements.
 Findings run_hill(const std::filesystem::path& folder, double spacing);
+/// A rigid strip pressed into clay; the resolution is the number of cells over its width.
+Findings run_strip_footing(const std::filesystem::path& folder, double cells);
+/// Clay of falling strength in a vertical cut; cells over its height.
+Findings run_vertical_cut(const std::filesystem::path& folder, double cells);
+/// An infinite slope on a weak layer under shaking.
+Findings run_sliding_block(const std::filesystem::path& folder, double spacing);
+/// Water behind a dam that vanishes; cells over its depth.
+Findings run_dam_break(const std::filesystem::path& folder, double cells);
 } // namespace mpm::verification

@@ -91,6 +91,36 @@ TEST_CASE("An elastic slope answers a wavelet as finite elements say (V15)", "[v
   quick("hill");
 }
 
+TEST_CASE("The compliant base reflects oblique waves as dashpots do (V12)", "[verification]")
+{
+  quick("absorption");
+}
+
+TEST_CASE("A line load in a small box makes the waves and echoes of finite elements (V13)", "[verification]")
+{
+  quick("line_load");
+}
+
+TEST_CASE("A strip footing fails on clay, too strong by no more than was measured (V16)", "[verification]")
+{
+  quick("strip_footing");
+}
+
+TEST_CASE("A vertical cut in clay stands too high by no more than was measured (V19)", "[verification]")
+{
+  quick("vertical_cut");
+}
+
+TEST_CASE("A block on a weak layer slides as Newmark's (V20)", "[verification]")
+{
+  quick("sliding_block");
+}
+
+TEST_CASE("Water behind a broken dam flows as shallow water and not faster (V21)", "[verification]")
+{
+  quick("dam_break");
+}
+
 TEST_CASE("Every case of the ladder states a bound for each resolution that it runs", "[verification]")
 {
   for (const LadderCase& one : ladder_cases())

@@ -1,0 +1,208 @@
+#include "test/scenes.hpp"
+#include "test/verification/cases.hpp"
+#include "test/verification/column.hpp"
+#include "test/verification/dashpot_reflection.hpp"
+
+#include "io/units.hpp"
+
+#include <fmt/format.h>
+
+#include <numbers>
+
+namespace mpm::verification
+{
+namespace
+{
+constexpr double wavelength = 12;           // m
+constexpr double along = 0.6 * wavelength;  // standard deviation of a packet's envelope along its way, m
+constexpr double across = 1.2 * wavelength; // and across it
+constexpr double clear = 2.5;               // standard deviations between the packet's centre and an edge
+
+/// One plane wave of a packet, v = amplitude d cos(k . (x - centre)).
+struct Component
+{
+  double kx, ky, amplitude;
+};
+
+/// A packet of plane waves with a Gaussian envelope that goes down at `angle` from the vertical.
+struct Packet
+{
+  WaveKind kind;
+  double angle;         ///< rad
+  double x, y;          ///< centre, m
+  double width, height; ///< of the ground that it needs until it has met the base, m
+  std::vector<Component> components;
+};
+
+/// The envelope's transform in `steps` x `steps` waves; they repeat after 8 pi steps / 6 deviations, out of
+/// sight.
+Packet make_packet(WaveKind kind, double angle)
+{
+  const double s = std::sin(angle), c = std::cos(angle);
+  const double reach_x = clear * std::hypot(along * s, across * c),
+               reach_y = clear * std::hypot(along * c, across * s);
+  Packet packet{kind, angle, reach_x, reach_y, 2 * (reach_x + reach_y * s / c), 2 * reach_y, {}};
+  constexpr int steps = 12; // a quarter of a deviation each, to three deviations
+  for (int i = -steps; i <= steps; ++i)
+    for (int j = -steps; j <= steps; ++j)
+    {
+      const double a = 0.25 * i, b = 0.25 * j; // deviations of the wave number along and across
+      const double k = 2 * std::numbers::pi / wavelength + a / along, q = b / across;
+      const Component one{k * s + q * c, -k * c + q * s, std::exp(-0.5 * (a * a + b * b))};
+      if (one.ky < 0) packet.components.push_back(one); // what would go up is not of the packet
+    }
+  return packet;
+}
+
+/// Velocity of a packet at its start and stress half a step later, as the scheme has them; exact for each
+/// plane wave: sigma = -D (v sym k) / (c |k|).
+void put(const Packet& packet, Domain& domain, const Elastic& law, double dt)
+{
+  Particles& p = domain.particles;
+  const double c = speed_of(packet.kind, law);
+  for (int n = 0; n < p.size(); ++n)
+  {
+    double vx = 0, vy = 0, xx = 0, yy = 0, xy = 0, C[4] = {};
+    for (const Component& one : packet.components)
+    {
+      const double k = std::hypot(one.kx, one.ky), nx = one.kx / k, ny = one.ky / k;
+      const double phase = one.kx * (p.x[n] - packet.x) + one.ky * (p.y[n] - packet.y);
+      const double v = one.amplitude * std::cos(phase),
+                   later = one.amplitude * std::cos(phase - 0.5 * dt * c * k),
+                   slope = -one.amplitude * std::sin(phase);
+      const double dx = packet.kind == WaveKind::P ? nx : ny, dy = packet.kind == WaveKind::P ? ny : -nx;
+      vx += v * dx;
+      vy += v * dy;
+      xx -= later / c * (law.lame() * (nx * dx + ny * dy) + 2 * law.shear_modulus() * nx * dx);
+      yy -= later / c * (law.lame() * (nx * dx + ny * dy) + 2 * law.shear_modulus() * ny * dy);
+      xy -= later / c * law.shear_modulus() * (nx * dy + ny * dx);
+      C[0] += slope * one.kx * dx;
+      C[1] += slope * one.ky * dx;
+      C[2] += slope * one.kx * dy;
+      C[3] += slope * one.ky * dy;
+    }
+    constexpr double scale = 1e-6; // m/s: displacements stay far below a cell
+    p.velocity_x[n] = scale * vx;
+    p.velocity_y[n] = scale * vy;
+    p.affine_xx[n] = scale * C[0];
+    p.affine_xy[n] = scale * C[1];
+    p.affine_yx[n] = scale * C[2];
+    p.affine_yy[n] = scale * C[3];
+    p.stress_xx[n] = scale * xx;
+    p.stress_yy[n] = scale * yy;
+    p.stress_xy[n] = scale * xy;
+    p.stress_zz[n] = law.poisson * (p.stress_xx[n] + p.stress_yy[n]);
+  }
+}
+
+/// Measures the work of the dashpots: the grid's velocity at the start of a step, and dt c v^2 with the mean
+/// of start and end, which is what the centred dashpot of the equation of motion takes out.
+class DashpotMeter final : public Boundary
+{
+public:
+  void constrain(Domain& domain) override { start_ = {domain.grid.momentum_x, domain.grid.momentum_y}; }
+  double work(const Grid& g, double dt) const
+  {
+    double sum = 0;
+    for (int k = 0; k < g.nodes(); ++k)
+    {
+      if (g.mass[k] <= 0) continue;
+      const double vx = 0.5 * (start_[0][k] / g.mass[k] + g.velocity_x[k]);
+      const double vy = 0.5 * (start_[1][k] / g.mass[k] + g.velocity_y[k]);
+      sum += dt * (g.dashpot_x[k] * vx * vx + g.dashpot_y[k] * vy * vy);
+    }
+    return sum;
+  }
+
+private:
+  std::array<std::vector<double>, 2> start_;
+};
+
+double energy(const Domain& domain)
+{
+  return kinetic_energy(domain) + scenes::strain_energy(domain);
+}
+
+/// Share of the packet's energy that the base sends back. Affine transfers cost a wave some of its energy on
+/// its way; their rate is taken from the first sixth of it, before the packet meets the base, and work is
+/// reckoned back with it.
+double reflected(const Packet& packet, const std::filesystem::path& folder, double spacing)
+{
+  const Case scene = load_case(
+      folder / "case.yaml", {"grid.spacing=" + number_text(spacing) + " m",
+                             fmt::format("domain.x=[0 m, {} m]", std::ceil(packet.width)),
+                             fmt::format("surfaces.ground.points=[[0 m, {} m]]", std::ceil(packet.height))});
+  Model model = make_model(scene);
+  add_seismic_boundaries(model, scene, std::make_shared<IncomingWave>(), false);
+  Domain& domain = *model.main;
+  auto owned = std::make_unique<DashpotMeter>();
+  const DashpotMeter& meter = *owned;
+  domain.boundaries.push_back(std::move(owned));
+  const Elastic& law = scene.materials[0].elastic();
+  const double dt = scene.safety * spacing / law.pressure_speed();
+  put(packet, domain, law, dt);
+  const double way = 2 * packet.y / std::cos(packet.angle); // until its tail has met the base
+  const int steps = static_cast<int>(way / speed_of(packet.kind, law) / dt);
+  double start = 0, work = 0, absorbed = 0, rate = 0;
+  for (int k = 0; k < steps; ++k)
+  {
+    scenes::run(domain, 1, dt);
+    const double now = meter.work(domain.grid, dt);
+    work += now;
+    absorbed += now * std::exp(rate * k * dt);
+    if (k == 0) start = energy(domain); // of the field as the grid carries it
+    if (k == steps / 6) rate = -std::log((energy(domain) + work) / start) / (k * dt);
+  }
+  return 1 - absorbed / start;
+}
+
+/// The closed form, weighted over the packet's plane waves by their energies.
+double expected(const Packet& packet, const Elastic& law)
+{
+  double reflected = 0, all = 0;
+  for (const Component& one : packet.components)
+  {
+    const double energy = one.amplitude * one.amplitude;
+    reflected += energy * reflected_energy(packet.kind, one.kx / std::hypot(one.kx, one.ky), law);
+    all += energy;
+  }
+  return reflected / all;
+}
+
+double table_error(const std::map<std::string, std::vector<double>>& table, WaveKind kind, const Elastic& law)
+{
+  const auto& values = table.at(kind == WaveKind::P ? "P" : "S");
+  double error = 0;
+  for (std::size_t k = 0; k < values.size(); ++k)
+    error = std::max(
+        error,
+        std::fabs(values[k] -
+                  reflected_energy(kind, std::sin(table.at("angle")[k] * std::numbers::pi / 180), law)));
+  return error;
+}
+} // namespace
+
+Findings run_absorption(const std::filesystem::path& folder, double spacing)
+{
+  const auto table = read_table(folder / "reference.csv");
+  const Elastic law = scene_at(folder, spacing).materials[0].elastic();
+  Findings findings;
+  findings.errors["table"] = 0;
+  for (const WaveKind kind : {WaveKind::P, WaveKind::S})
+  {
+    const std::string name = kind == WaveKind::P ? "P" : "S";
+    Curve curve{name, "angle from the normal (degrees)", "share of energy reflected", {0, 30, 50}, {}, {}};
+    for (const double degrees : curve.x)
+    {
+      const Packet packet = make_packet(kind, degrees * std::numbers::pi / 180);
+      curve.model.push_back(reflected(packet, folder, spacing));
+      curve.reference.push_back(expected(packet, law));
+      double& error = findings.errors[name];
+      error = std::max(error, std::fabs(curve.model.back() - curve.reference.back()));
+    }
+    findings.errors["table"] = std::max(findings.errors["table"], table_error(table, kind, law));
+    findings.curves.push_back(curve);
+  }
+  return findings;
+}
+} // namespace mpm::verification
