@@ -34,7 +34,7 @@ struct Packet
   std::vector<Component> components;
 };
 
-/// The envelope's transform in `steps` x `steps` waves; they repeat after 8 pi steps / 6 deviations, out of
+/// The envelope's transform in 17 x 17 waves; they repeat after 16.8 deviations, out of sight.
 /// sight.
 Packet make_packet(WaveKind kind, double angle)
 {
@@ -42,11 +42,11 @@ Packet make_packet(WaveKind kind, double angle)
   const double reach_x = clear * std::hypot(along * s, across * c),
                reach_y = clear * std::hypot(along * c, across * s);
   Packet packet{kind, angle, reach_x, reach_y, 2 * (reach_x + reach_y * s / c), 2 * reach_y, {}};
-  constexpr int steps = 12; // a quarter of a deviation each, to three deviations
+  constexpr int steps = 8; // three eighths of a deviation each, to three deviations
   for (int i = -steps; i <= steps; ++i)
     for (int j = -steps; j <= steps; ++j)
     {
-      const double a = 0.25 * i, b = 0.25 * j; // deviations of the wave number along and across
+      const double a = 0.375 * i, b = 0.375 * j; // deviations of the wave number along and across
       const double k = 2 * std::numbers::pi / wavelength + a / along, q = b / across;
       const Component one{k * s + q * c, -k * c + q * s, std::exp(-0.5 * (a * a + b * b))};
       if (one.ky < 0) packet.components.push_back(one); // what would go up is not of the packet

@@ -26,12 +26,12 @@ Findings run_absorption(const std::filesystem::path& folder, double spacing);
 Findings run_line_load(const std::filesystem::path& folder, double spacing);
 /// An elastic slope against finite elements.
 Findings run_hill(const std::filesystem::path& folder, double spacing);
-/// A rigid strip pressed into clay; the resolution is the number of cells over its width.
-Findings run_strip_footing(const std::filesystem::path& folder, double cells);
-/// Clay of falling strength in a vertical cut; cells over its height.
-Findings run_vertical_cut(const std::filesystem::path& folder, double cells);
+/// A rigid strip pressed into clay.
+Findings run_strip_footing(const std::filesystem::path& folder, double spacing);
+/// Clay of falling strength in a vertical cut.
+Findings run_vertical_cut(const std::filesystem::path& folder, double spacing);
 /// An infinite slope on a weak layer under shaking.
 Findings run_sliding_block(const std::filesystem::path& folder, double spacing);
-/// Water behind a dam that vanishes; cells over its depth.
-Findings run_dam_break(const std::filesystem::path& folder, double cells);
+/// Water behind a dam that vanishes.
+Findings run_dam_break(const std::filesystem::path& folder, double spacing);
 } // namespace mpm::verification

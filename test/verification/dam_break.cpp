@@ -38,9 +38,8 @@ std::vector<double> depths(const Domain& domain, double bin, std::size_t count)
 }
 } // namespace
 
-Findings run_dam_break(const std::filesystem::path& folder, double cells)
+Findings run_dam_break(const std::filesystem::path& folder, double h)
 {
-  const double h = depth / cells;
   const Case scene = load_case(folder / "case.yaml", {"grid.spacing=" + number_text(h) + " m"});
   Model model = make_model(scene);
   Domain& domain = *model.main;

@@ -53,9 +53,8 @@ private:
 };
 } // namespace
 
-Findings run_strip_footing(const std::filesystem::path& folder, double cells)
+Findings run_strip_footing(const std::filesystem::path& folder, double h)
 {
-  const double h = width / cells;
   const Case scene = load_case(folder / "case.yaml", {"grid.spacing=" + number_text(h) + " m"});
   Model model = make_model(scene);
   add_static_boundaries(model, scene);

@@ -12,7 +12,7 @@ namespace
 {
 constexpr double height = 5;       // m
 constexpr double elastic_time = 3; // s: gravity grows over a half of it, elastic
-constexpr double plastic_time = 3; // s, after which the cut must have come to rest or be on its way
+constexpr double plastic_time = 6; // s, after which the cut must have come to rest or be on its way
 constexpr double gone = 0.02;      // of the height: five times what yielding alone moves a cut that stands
 constexpr double exact = 3.8;      // middle of the bounds of limit analysis
 
@@ -69,9 +69,9 @@ double displacement(Cut& cut, double number)
 }
 } // namespace
 
-Findings run_vertical_cut(const std::filesystem::path& folder, double cells)
+Findings run_vertical_cut(const std::filesystem::path& folder, double spacing)
 {
-  Cut cut = settle(load_case(folder / "case.yaml", {"grid.spacing=" + number_text(height / cells) + " m"}));
+  Cut cut = settle(load_case(folder / "case.yaml", {"grid.spacing=" + number_text(spacing) + " m"}));
   Curve curve{"displacement", "rho g H / s_u", "displacement / H", {}, {}, {}};
   double stands = 3, falls = 5;
   while (falls - stands > 0.07) // 2 % of the answer
