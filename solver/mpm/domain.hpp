@@ -4,6 +4,7 @@
 #include "solver/mpm/boundary.hpp"
 #include "solver/mpm/grid.hpp"
 #include "solver/mpm/particles.hpp"
+#include "solver/mpm/phases.hpp"
 
 #include <memory>
 #include <stdexcept>
@@ -71,6 +72,7 @@ struct Domain
   double drift = 0;                        ///< cells that a particle may have moved since the last sort
   Balance balance;
   Ledger ledger;
+  PhaseTimes times;         ///< of all steps since the program began
   double greatest_move = 0; ///< greatest displacement component of the last step, in cells
 };
 

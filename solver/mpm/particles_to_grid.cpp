@@ -128,6 +128,8 @@ void particles_to_grid(Domain& domain, double dt)
   for (const auto& colour : domain.colours)
     parallel::for_each(static_cast<int>(colour.size()),
                        [&](int k) { scatter_home(domain, domain.homes[colour[k]]); });
+  domain.times.lap(Phase::scatter);
   for (const auto& boundary : domain.boundaries) boundary->add_forces(domain, dt);
+  domain.times.lap(Phase::boundaries);
 }
 } // namespace mpm

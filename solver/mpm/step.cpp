@@ -33,13 +33,18 @@ void find_diverged(const Domain& domain)
 
 void step(Domain& domain, double dt)
 {
+  domain.times.start();
   if (domain.drift > drift_limit - move_limit) sort_particles(domain);
+  domain.times.lap(Phase::sort);
   particles_to_grid(domain, dt); // (a) mass, momentum and forces to the grid
   solve_grid(domain, dt);        // (b) equation of motion
-  account(domain, dt);           //     its work, for the energy ledger
+  domain.times.lap(Phase::grid);
+  account(domain, dt); //     its work, for the energy ledger
+  domain.times.lap(Phase::boundaries);
   grid_to_particles(domain, dt); // (c) velocities back to the particles, (d) deformation and stress
   find_diverged(domain);
   domain.drift += domain.greatest_move;
   if (domain.grid.wrapped) wrap(domain);
+  domain.times.lap(Phase::gather);
 }
 } // namespace mpm

@@ -218,6 +218,7 @@ void advance(Model& model, double time, double dt)
   {
     if (c) c->advance(time, dt);
   };
+  model.main->times.start();
   if (model.left && model.right)
     parallel::together([&] { column(model.left.get()); }, [&] { column(model.right.get()); });
   else
@@ -225,6 +226,7 @@ void advance(Model& model, double time, double dt)
     column(model.left.get());
     column(model.right.get());
   }
+  model.main->times.lap(Phase::columns);
   model.main->time = time;
   step(*model.main, dt);
 }

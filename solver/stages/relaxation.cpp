@@ -154,7 +154,7 @@ int Relaxation::run(Clock& clock)
   };
   session_.log.info("static stage: {} particles, dt = {:.3e} s, gravity in {} s",
                     model_.main->particles.size(), clock.dt, session_.scene.statics.ramp);
-  session_.loop_begins(clock.step);
+  session_.loop_begins(clock.step, model_);
   bool done = false;
   while (!done && clock.time() < until.at_most)
   {

@@ -185,7 +185,7 @@ private:
     }
     session_.log.info("seismic stage: {} particles, dt = {:.3e} s, {} s", model_.main->particles.size(),
                       clock.dt, duration);
-    session_.loop_begins(clock.step);
+    session_.loop_begins(clock.step, model_);
     while (clock.time() < duration * (1 - 1e-9))
     {
       model_.for_each_domain([&](Domain& domain, const std::string&)

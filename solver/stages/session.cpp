@@ -145,6 +145,7 @@ void Session::write_checkpoint(const std::string& name, std::string_view stage, 
                           file.write_strings("ground", ground_settings(scene));
                           h5::Group time = file.create_group("clock");
                           time.attribute("stage", stage);
+                          time.attribute("vectors", vector_path);
                           time.attribute("step", clock.step);
                           time.attribute("time", clock.time());
                           time.attribute("dt", clock.dt);
@@ -170,6 +171,11 @@ std::optional<h5::File> Session::newest_checkpoint()
     {
       h5::File file = open_complete(path);
       log.info("goes on from {}", path.string());
+      const std::string vectors = file.open_group("clock").attribute_string("vectors");
+      if (vectors != vector_path)
+        log.warn("{} was computed with {} instructions, this build uses {}: the run goes on, but not bit for "
+                 "bit as one on one machine",
+                 path.string(), vectors, vector_path);
       return file;
     }
     catch (const Error& error)
@@ -180,8 +186,9 @@ std::optional<h5::File> Session::newest_checkpoint()
   return std::nullopt;
 }
 
-void Session::loop_begins(std::int64_t step)
+void Session::loop_begins(std::int64_t step, const Model& model)
 {
+  earlier_ = model.main->times.seconds();
   loop_start_ = Wall::now();
   first_step_ = step;
 }
@@ -210,13 +217,23 @@ void Session::finish(std::string_view stage, int exit, const Model& model, const
       {"version", SEISMPM_VERSION},
       {"git", SEISMPM_GIT},
       {"build", SEISMPM_BUILD},
+      {"vectors", vector_path},
       {"command", options.command}};
+  const double per_step = 1e9 * parallel::threads() / std::max(1.0, particles * steps);
+  std::string phases;
+  for (std::size_t k = 0; k < phase_names.size(); ++k)
+  {
+    const double cost = per_step * (model.main->times.seconds()[k] - earlier_[k]);
+    summary["phases"][std::string(phase_names[k])] = cost;
+    phases += fmt::format("{}{} {:.1f}", k ? ", " : "", phase_names[k], cost);
+  }
   summary.update(facts);
   summary.update(more);
   write_text_atomically(*folder / "summary.json", summary.dump(2) + "\n");
   log.info("{} ends with {} after {}: {} steps, {:.1f} ns per particle-step and core", stage, exit,
            duration_text(wall_seconds()), clock.step - first_step_,
            summary["ns_per_particle_step"].get<double>());
+  log.info("of it {} ns", phases);
 }
 
 void load_model(const h5::File& file, Model& model, Clock& clock)

@@ -69,7 +69,7 @@ public:
   void finish(std::string_view stage, int exit, const Model& model, const Clock& clock, nlohmann::json more);
   Provenance provenance() const;
   double wall_seconds() const;
-  void loop_begins(std::int64_t step);
+  void loop_begins(std::int64_t step, const Model& model);
 
   Options options;
   Log log;
@@ -81,6 +81,7 @@ private:
   using Wall = std::chrono::steady_clock;
   Wall::time_point start_ = Wall::now(), last_checkpoint_ = start_, loop_start_ = start_;
   std::int64_t first_step_ = 0;
+  std::array<double, phase_names.size()> earlier_{}; ///< times of the phases when the loop began, s
 };
 
 /// Halves the step when the ground has become so loose that waves outrun it.

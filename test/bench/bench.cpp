@@ -1,0 +1,191 @@
+// seismpm-bench: cost of a step of the slope in its seismic stage, beside what the machine can do.
+//
+//   build/seismpm-bench --out bench.json                 10^4 to 10^6 particles, one and all threads
+//   build/seismpm-bench --particles 4000000 --threads 2
+
+#include "io/case.hpp"
+#include "solver/mpm/parallel.hpp"
+#include "solver/stages/model.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iostream>
+
+namespace
+{
+using namespace mpm;
+using Watch = std::chrono::steady_clock;
+
+double seconds_since(Watch::time_point start)
+{
+  return std::chrono::duration<double>(Watch::now() - start).count();
+}
+
+double median(std::vector<double> values)
+{
+  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
+  return values[values.size() / 2];
+}
+
+/// Giga multiply-adds per second of one thread, in registers.
+double multiply_adds()
+{
+  constexpr int lanes = 64, rounds = 4000000;
+  alignas(64) double sum[lanes]{};
+  const volatile double factor = 0.999999;
+  const double f = factor;
+  const auto start = Watch::now();
+  for (int k = 0; k < rounds; ++k)
+    for (int l = 0; l < lanes; ++l) sum[l] = sum[l] * f + 1;
+  const double time = seconds_since(start);
+  volatile double keep = 0;
+  for (const double s : sum) keep = keep + s;
+  return 1e-9 * lanes * rounds / time;
+}
+
+/// GB/s that one thread reads and writes in place, in an array of `bytes`.
+double bandwidth(std::size_t bytes)
+{
+  std::vector<double> values(bytes / sizeof(double), 1.0);
+  std::vector<double> rates;
+  for (int round = 0; round < 5; ++round)
+  {
+    const auto start = Watch::now();
+    for (double& value : values) value = 0.5 * value + 1;
+    rates.push_back(2e-9 * bytes / seconds_since(start));
+  }
+  return median(rates);
+}
+
+/// The slope at about `particles` particles, 3 x 3 a cell, with geostatic stress, at the switch.
+Model shaken_slope(int particles, Case& scene)
+{
+  const std::string path = SOURCE_DIR "/cases/slope/case.yaml";
+  const double area = 4260; // m2 of the section
+  double h = std::sqrt(9 * area / particles);
+  h = 140 / std::ceil(140 / h); // a whole number of cells
+  scene = load_case(path, {fmt::format("grid.spacing={:.17g} m", h), "grid.particles_per_cell=3"});
+  Model model = make_model(scene);
+  model.for_each_domain(
+      [&](Domain& domain, const std::string&)
+      {
+        Particles& p = domain.particles;
+        for (int k = 0; k < p.size(); ++k)
+        {
+          const double depth = scene.ground_height(p.x[k]) - p.y[k];
+          p.stress_yy[k] = -18e3 * depth;
+          p.stress_xx[k] = p.stress_zz[k] = -9e3 * depth;
+        }
+        domain.gravity_y = -scene.statics.gravity;
+      });
+  add_static_boundaries(model, scene);
+  auto wave = std::make_shared<IncomingWave>();
+  GroundMotion motion; // 0.3 m/s at 2 Hz
+  motion.dt = 0.01;
+  for (int k = 0; k < 10000; ++k)
+  {
+    motion.velocity.push_back(0.3 * std::sin(4 * M_PI * k * motion.dt));
+    motion.acceleration.push_back(0.3 * 4 * M_PI * std::cos(4 * M_PI * k * motion.dt));
+  }
+  wave->horizontal = motion;
+  add_seismic_boundaries(model, scene, wave, false);
+  model.for_each_domain([](Domain& domain, const std::string&) { open_ledger(domain); });
+  return model;
+}
+
+struct Run
+{
+  int particles, threads;
+  double step; ///< ns per particle-step and core, median over batches of steps
+  std::array<double, phase_names.size()> phases;
+};
+
+Run measure(int particles, int threads)
+{
+  parallel::use_threads(threads);
+  Case scene;
+  Model model = shaken_slope(particles, scene);
+  const double dt = scene.safety * scene.grid.spacing / greatest_wave_speed(*model.main);
+  const int count = model.main->particles.size();
+  const int batch = std::max(3, static_cast<int>(2e7 / count) / 5);
+  long step = 0;
+  const auto go = [&](int steps)
+  {
+    for (int k = 0; k < steps; ++k, ++step) advance(model, step * dt, dt);
+  };
+  go(batch);
+  const double unit = 1e9 * threads / (static_cast<double>(count) * batch);
+  const auto before = model.main->times.seconds();
+  std::vector<double> batches;
+  for (int round = 0; round < 5; ++round)
+  {
+    const auto start = Watch::now();
+    go(batch);
+    batches.push_back(unit * seconds_since(start));
+  }
+  Run run{count, threads, median(batches), {}};
+  for (std::size_t k = 0; k < run.phases.size(); ++k)
+    run.phases[k] = unit * (model.main->times.seconds()[k] - before[k]) / 5;
+  return run;
+}
+
+int bytes_per_particle()
+{
+  int numbers = 1; // the id
+  for (const ParticleField& field : particle_fields) numbers += field.components;
+  return 8 * (numbers + 1) + 8; // plastic strain of von Mises; place and reference volume
+}
+} // namespace
+
+int main(int argc, char** argv)
+{
+  CLI::App app("Cost of a step of the slope in its seismic stage.", "seismpm-bench");
+  std::string out;
+  std::vector<int> sizes{10000, 100000, 1000000}, threads{1, parallel::processors()};
+  app.add_option("--out", out, "file for the figures (JSON)");
+  app.add_option("--particles", sizes, "sizes of the scene");
+  app.add_option("--threads", threads, "numbers of threads");
+  CLI11_PARSE(app, argc, argv);
+  if (threads.size() == 2 && threads[0] == threads[1]) threads.pop_back();
+
+  const double fma = multiply_adds(), near = bandwidth(100 << 20), far = bandwidth(std::size_t{800} << 20);
+  fmt::print("vectors: {}; one thread: {:.1f} giga multiply-adds/s, in place {:.1f} GB/s in 100 MB, {:.1f} "
+             "in 800 MB\n",
+             vector_path, fma, near, far);
+  // 805 operations and 328 + 23 bytes a particle-step with 9 particles a cell, two to a multiply-add.
+  const double arithmetic = 805 / (2 * fma), memory = 351 / near;
+  fmt::print("floors: arithmetic {:.1f}, memory {:.1f} ns per particle-step; {} bytes a particle\n\n",
+             arithmetic, memory, bytes_per_particle());
+  fmt::print("{:>10} {:>8} {:>8}", "particles", "threads", "step");
+  for (const auto name : phase_names) fmt::print(" {:>10}", name);
+  fmt::print("  floor x\n");
+  nlohmann::json runs;
+  for (const int size : sizes)
+    for (const int count : threads)
+    {
+      const Run run = measure(size, count);
+      fmt::print("{:>10} {:>8} {:>8.1f}", run.particles, run.threads, run.step);
+      for (const double phase : run.phases) fmt::print(" {:>10.2f}", phase);
+      fmt::print("  {:>7.1f}\n", run.step / std::max(arithmetic, memory));
+      std::cout.flush();
+      nlohmann::json one{{"particles", run.particles}, {"threads", run.threads}, {"step", run.step}};
+      for (std::size_t k = 0; k < phase_names.size(); ++k) one[std::string(phase_names[k])] = run.phases[k];
+      runs.push_back(one);
+    }
+  if (out.empty()) return 0;
+  const nlohmann::json all{{"vectors", vector_path},
+                           {"giga_multiply_adds", fma},
+                           {"gigabytes_100_mb", near},
+                           {"gigabytes_800_mb", far},
+                           {"floor_arithmetic", arithmetic},
+                           {"floor_memory", memory},
+                           {"bytes_per_particle", bytes_per_particle()},
+                           {"runs", runs}};
+  std::ofstream(out) << all.dump(2) << '\n';
+  return 0;
+}
