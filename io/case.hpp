@@ -110,6 +110,13 @@ struct MotionSettings
 /// spring_time().
 using SpringTime = std::optional<double>;
 
+/// `seismic.flip_ends`: what ends the share of FLIP.
+enum class FlipEnds
+{
+  on_slide, ///< ground that has slid
+  never
+};
+
 /// `seismic`. The kinds of base and sides rule the free-field columns of the static stage too.
 struct SeismicSettings
 {
@@ -117,7 +124,8 @@ struct SeismicSettings
   BaseKind base = BaseKind::compliant;
   SpringTime spring;
   SideKind sides = SideKind::free_field;
-  double flip_blend = 0; ///< share of FLIP in the velocity update until ground slides
+  double flip_blend = 0; ///< share of FLIP in the velocity update
+  FlipEnds flip_ends = FlipEnds::on_slide;
   MotionSettings motion;
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "io/case.hpp"
 #include "io/hdf5.hpp"
 
 #include <algorithm>
@@ -8,19 +9,21 @@
 namespace mpm
 {
 /// Share of FLIP in the particles' velocities over a run: the case's (`seismic.flip_blend`) while the ground
-/// shakes; once ground has slid it fades to none, since FLIP keeps velocities that the grid does not see,
-/// which a run-out would carry along.
+/// shakes. Once ground has slid it fades to none, since FLIP keeps velocities that the grid does not see,
+/// which a run-out would carry along; FlipEnds::never keeps it, for zones of so few cells that affine
+/// transfers alone would hold the slide back as a viscosity does.
 class FlipBlend
 {
 public:
   static constexpr double fade = 1; ///< s
 
-  explicit FlipBlend(double share) : share_(share) {}
+  FlipBlend(double share, FlipEnds ends) : share_(share), ends_(ends) {}
   /// Whether ground has slid by `time` (s).
   void note(bool slid, double time)
   {
-    if (slid && std::isnan(slid_)) slid_ = time;
+    if (slid && ends_ == FlipEnds::on_slide && std::isnan(slid_)) slid_ = time;
   }
+  /// The share at `time` (s).
   double at(double time) const
   {
     return std::isnan(slid_) ? share_ : share_ * std::clamp(1 - (time - slid_) / fade, 0.0, 1.0);
@@ -30,6 +33,7 @@ public:
 
 private:
   double share_;
+  FlipEnds ends_;
   double slid_ = NAN; ///< since when, s
 };
 } // namespace mpm

@@ -128,7 +128,7 @@ class Shaking
 public:
   Shaking(Session& session, Model& model, const Motion& motion)
       : session_(session), model_(model), motion_(motion), observer_(session, model, *motion.wave),
-        energy_(session, model), flip_(session.scene.seismic.flip_blend)
+        energy_(session, model), flip_(session.scene.seismic.flip_blend, session.scene.seismic.flip_ends)
   {
   }
 

@@ -423,6 +423,15 @@ TEST_CASE("A within motion is refused with the reason, and recorded_as has no de
         MotionEnd::self_driven);
 }
 
+TEST_CASE("The share of FLIP ends when ground slides unless the case keeps it", "[io]")
+{
+  const std::string shaken = small + "seismic:\n  duration: 1 s\n  flip_blend: 0.9\n";
+  CHECK(load(shaken).seismic.flip_ends == FlipEnds::on_slide);
+  CHECK(load(shaken + "  flip_ends: never\n").seismic.flip_ends == FlipEnds::never);
+  CHECK_THAT(refusal(shaken + "  flip_ends: newer\n"),
+             Contains("seismic.flip_ends: is 'newer'; must be on_slide or never; did you mean 'never'?"));
+}
+
 TEST_CASE("Surfaces and regions have to fit together", "[io]")
 {
   const std::string circle =

@@ -47,6 +47,7 @@ Slide slide(const InfiniteSlope& slope)
   sort_particles(domain);
   stress_by_weight(domain, top);
   domain.gravity_y = -g * std::cos(angle);
+  domain.flip_blend = slope.flip_blend;
 
   const double dt = 0.5 * h / stiff.pressure_speed();
   const auto steps = static_cast<int>(std::ceil(slope.duration / dt));

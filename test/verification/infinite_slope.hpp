@@ -12,7 +12,8 @@ struct InfiniteSlope
   double spacing = 1;        ///< m
   int zone_cells = 3;        ///< thickness of the zone
   double pulse = 0.5 * 9.81; ///< peak acceleration of the rock, m/s2
-  double duration = 4;       ///< s
+  double duration = 3;       ///< s
+  double flip_blend = 0;     ///< share of FLIP in the velocities
 };
 
 struct Slide
