@@ -147,7 +147,8 @@ REFERENCES = {
 
 
 def numbers(text):
-    lines = [line for line in text.splitlines() if line and line[0] not in "#abcdefghijklmnopqrstuvwxyz"]
+    """The rows below the names of a table's columns."""
+    lines = [line for line in text.splitlines() if line and line[0] != "#"][1:]
     return np.array([[float(cell) for cell in line.replace(",", " ").split()] for line in lines])
 
 
