@@ -134,6 +134,17 @@ Run measure(int particles, int threads)
   return run;
 }
 
+/// Takes exactly `steps` steps after a first one, which sorts; for counts of instructions.
+void take(int particles, int steps)
+{
+  parallel::use_threads(1);
+  Case scene;
+  Model model = shaken_slope(particles, scene);
+  const double dt = scene.safety * scene.grid.spacing / greatest_wave_speed(*model.main);
+  for (int step = 0; step < steps; ++step) advance(model, step * dt, dt);
+  fmt::print("{} particles\n{} steps\n", model.main->particles.size(), steps);
+}
+
 int bytes_per_particle()
 {
   int numbers = 1; // the id
@@ -150,7 +161,14 @@ int main(int argc, char** argv)
   app.add_option("--out", out, "file for the figures (JSON)");
   app.add_option("--particles", sizes, "sizes of the scene");
   app.add_option("--threads", threads, "numbers of threads");
+  int steps = 0;
+  app.add_option("--steps", steps, "take this many steps of the first size and measure nothing");
   CLI11_PARSE(app, argc, argv);
+  if (steps > 0)
+  {
+    take(sizes.front(), steps);
+    return 0;
+  }
   if (threads.size() == 2 && threads[0] == threads[1]) threads.pop_back();
 
   const double fma = multiply_adds(), near = bandwidth(100 << 20), far = bandwidth(std::size_t{800} << 20);
