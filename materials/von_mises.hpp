@@ -65,27 +65,56 @@ struct VonMises : Elastic, LinearSoftening
   }
 
 private:
+  /// 3 J2 of the stress at point i, and its deviator and mean.
+  struct Deviator
+  {
+    double p, a, b, c, d;
+
+    Deviator(const StressBatch& s, int i)
+        : p((s.xx[i] + s.yy[i] + s.zz[i]) * (1.0 / 3)), a(s.xx[i] - p), b(s.yy[i] - p), c(s.zz[i] - p),
+          d(s.xy[i])
+    {
+    }
+    double mises_square() const { return 1.5 * (a * a + b * b + c * c + 2 * d * d); }
+  };
+
+  /// Number of points beyond the yield surface: where all are elastic, plasticity costs this count alone.
+  double count_yielding(const StressBatch& s, const double* __restrict strain, double slope) const
+  {
+    const double top = peak, bottom = residual;
+    double yielding = 0;
+#pragma omp simd reduction(+ : yielding)
+    for (int i = 0; i < s.count; ++i)
+    {
+      const double strength = std::max(bottom, top + slope * strain[i]);
+      yielding += Deviator(s, i).mises_square() > strength * strength ? 1.0 : 0.0;
+    }
+    return yielding;
+  }
+
   void return_to_yield_surface(const StressBatch& s, double* __restrict strain) const
   {
     const double stiffness = 3 * shear_modulus(), top = peak, bottom = residual;
     const double slope = (bottom - top) / softening_strain;
+    if (count_yielding(s, strain, slope) == 0) return;
     const double softening_rate = 1 / (stiffness + slope), residual_rate = 1 / stiffness;
 #pragma GCC ivdep
     for (int i = 0; i < s.count; ++i)
     {
-      const double p = (s.xx[i] + s.yy[i] + s.zz[i]) / 3;
-      const double a = s.xx[i] - p, b = s.yy[i] - p, c = s.zz[i] - p, d = s.xy[i];
-      const double q = std::sqrt(1.5 * (a * a + b * b + c * c + 2 * d * d));
+      const Deviator trial(s, i);
+      const double square = trial.mises_square(), q = std::sqrt(square);
+      const double strength = std::max(bottom, top + slope * strain[i]);
+      const bool yields = square > strength * strength; // an elastic point stays as it is, to the last bit
       // The two roots of the return equation, softening and residual; the smaller one is admissible.
       const double soft = (q - (top + slope * strain[i])) * softening_rate;
       const double flat = (q - bottom) * residual_rate;
-      const double step = std::max(0.0, std::min(soft, flat));
+      const double step = yields ? std::max(0.0, std::min(soft, flat)) : 0;
       const double scale = 1 - stiffness * step / std::max(q, 1e-300);
       strain[i] += step;
-      s.xx[i] = p + a * scale;
-      s.yy[i] = p + b * scale;
-      s.zz[i] = p + c * scale;
-      s.xy[i] = d * scale;
+      s.xx[i] = yields ? trial.p + trial.a * scale : s.xx[i];
+      s.yy[i] = yields ? trial.p + trial.b * scale : s.yy[i];
+      s.zz[i] = yields ? trial.p + trial.c * scale : s.zz[i];
+      s.xy[i] = yields ? trial.d * scale : s.xy[i];
     }
   }
 };

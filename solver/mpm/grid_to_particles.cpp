@@ -16,8 +16,15 @@ struct alignas(64) Readings
   double change[chunk_size][2];                            ///< w (v* - v), for a FLIP share only
 };
 
+/// Greatest components of what was read.
+struct Extremes
+{
+  Pairs velocity{}, gradient{};
+};
+
 template <bool flip>
-void read(const ChunkStencils& s, int count, const PairTile& velocity, const PairTile& change, Readings& out)
+void read(const ChunkStencils& s, int count, const PairTile& velocity, const PairTile& change, Readings& out,
+          const Ahead& ahead, Extremes& greatest)
 {
   for (int begin = 0; begin < count; begin += 4)
   {
@@ -27,6 +34,7 @@ void read(const ChunkStencils& s, int count, const PairTile& velocity, const Pai
     {
       const int k =
           std::min(begin + l, count - 1); // the last one again instead of a fourth that is not there
+      ahead.fetch(begin + l);
       const int node = s.node[k];
       Pairs u{}, u_moment{}, u_slope{}, du{};
 #pragma GCC unroll 4
@@ -47,10 +55,14 @@ void read(const ChunkStencils& s, int count, const PairTile& velocity, const Pai
       if constexpr (flip) dv[l] = w * du;
     }
     const auto sum = [begin](const Pairs* part, double(*to)[2])
-    { store_pairs(to[begin], sums(part[0], part[1], part[2], part[3])); };
-    sum(v, out.velocity);
-    sum(slope_x, out.slope_x);
-    sum(slope_y, out.slope_y);
+    {
+      const Pairs all = sums(part[0], part[1], part[2], part[3]);
+      store_pairs(to[begin], all);
+      return all;
+    };
+    greatest.velocity = greatest_of(greatest.velocity, sum(v, out.velocity));
+    greatest.gradient = greatest_of(greatest.gradient, sum(slope_x, out.slope_x));
+    greatest.gradient = greatest_of(greatest.gradient, sum(slope_y, out.slope_y));
     sum(moment_x, out.moment_x);
     sum(moment_y, out.moment_y);
     if constexpr (flip) sum(dv, out.change);
@@ -112,7 +124,7 @@ void apply(Particles& p, int begin, int count, const Readings& from, double spac
     cxy[k] = inverse_D * from.moment_y[k][0];
     cyy[k] = inverse_D * from.moment_y[k][1];
   }
-  for (int k = 0; k < count; ++k)
+  for (int k = 0; k < chunk_size; ++k)
   {
     L.xx[k] = from.slope_x[k][0];
     L.yx[k] = from.slope_x[k][1];
@@ -121,26 +133,7 @@ void apply(Particles& p, int begin, int count, const Readings& from, double spac
   }
 }
 
-/// Greatest velocity component of `count` particles, in m/s; infinity when a gradient is not a number or
-/// beyond `calmest` (1/s).
-double fastest(const double* __restrict vx, const double* __restrict vy, int count,
-               const VelocityGradients& L, double calmest)
-{
-  int wild = 0;
-  for (int k = 0; k < count; ++k)
-    wild |= !(std::fabs(L.xx[k]) + std::fabs(L.xy[k]) + std::fabs(L.yx[k]) + std::fabs(L.yy[k]) <= calmest);
-  if (wild) return std::numeric_limits<double>::infinity();
-  alignas(64) double speed[chunk_size]{}, lanes[8]{};
-  for (int k = 0; k < count; ++k)
-  {
-    const double a = std::fabs(vx[k]), b = std::fabs(vy[k]);
-    speed[k] = a > b ? a : b;
-  }
-  for (int k = 0; k < chunk_size; k += 8)
-    for (int l = 0; l < 8; ++l) lanes[l] = speed[k + l] > lanes[l] ? speed[k + l] : lanes[l];
-  return *std::max_element(lanes, lanes + 8);
-}
-
+/// Greatest displacement component of a block's particles in cells; infinite when one is deformed wholly.
 double update_home(Domain& domain, const Home& home, double dt)
 {
   const Grid& grid = domain.grid;
@@ -153,25 +146,32 @@ double update_home(Domain& domain, const Home& home, double dt)
   Readings readings;
   VelocityGradients gradients;
   Particles& p = domain.particles;
-  double greatest = 0;
+  Extremes greatest;
   for_each_chunk(home,
                  [&](int material, int begin, int count)
                  {
                    stencils.find(tile, &p.x[begin], &p.y[begin], count);
+                   const Material& m = domain.materials[material];
+                   const double* x = &p.x[begin];
+                   const auto state = [&](std::size_t k)
+                   { return k < m.state.size() ? &m.state[k][begin - domain.material_begin[material]] : x; };
+                   const Ahead ahead{{x, &p.y[begin], &p.mass[begin], &p.volume[begin], &p.velocity_x[begin],
+                                      &p.velocity_y[begin], &p.affine_xx[begin], &p.affine_xy[begin],
+                                      &p.affine_yx[begin], &p.affine_yy[begin], &p.stress_xx[begin],
+                                      &p.stress_xy[begin], &p.stress_yy[begin], &p.stress_zz[begin], state(0),
+                                      state(1)}};
                    if (flip)
                    {
-                     read<true>(stencils, count, velocity, change, readings);
+                     read<true>(stencils, count, velocity, change, readings, ahead, greatest);
                      blend_velocity(p, begin, count, domain.flip_blend, readings);
                    }
                    else
-                     read<false>(stencils, count, velocity, change, readings);
+                     read<false>(stencils, count, velocity, change, readings, ahead, greatest);
                    apply(p, begin, count, readings, grid.spacing, dt, flip, gradients);
-                   const double speed = fastest(&p.velocity_x[begin], &p.velocity_y[begin], count, gradients,
-                                                greatest_gradient / dt);
-                   greatest = std::max(greatest, speed);
                    update_particles(domain, material, begin, count, gradients, dt);
                  });
-  return greatest * dt / grid.spacing;
+  if (greatest_of(greatest.gradient) * dt > greatest_gradient) return std::numeric_limits<double>::infinity();
+  return greatest_of(greatest.velocity) * dt / grid.spacing;
 }
 
 /// Moves a gauge with the velocity of the ground at its place; nodes without mass are left out of the mean.

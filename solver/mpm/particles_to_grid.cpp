@@ -84,13 +84,18 @@ private:
   Pairs momentum_[4]{}, force_[4]{};
 };
 
-void scatter(const ChunkStencils& stencils, const Sources& sources, int count, Tiles& tiles)
+void scatter(const ChunkStencils& stencils, const Sources& sources, int count, Tiles& tiles,
+             const Ahead& ahead)
 {
   for (int k = 0; k < count;)
   {
     const int node = stencils.node[k];
     CellSums sums(node);
-    for (; k < count && stencils.node[k] == node; ++k) sums.add(stencils, sources, k);
+    for (; k < count && stencils.node[k] == node; ++k)
+    {
+      ahead.fetch(k);
+      sums.add(stencils, sources, k);
+    }
     sums.flush(tiles);
   }
 }
@@ -108,7 +113,12 @@ void scatter_home(Domain& domain, const Home& home)
                  {
                    stencils.find(tile, &p.x[begin], &p.y[begin], count);
                    sources.gather(p, begin, count);
-                   scatter(stencils, sources, count, tiles);
+                   const Ahead ahead{{&p.x[begin], &p.y[begin], &p.mass[begin], &p.volume[begin],
+                                      &p.velocity_x[begin], &p.velocity_y[begin], &p.affine_xx[begin],
+                                      &p.affine_xy[begin], &p.affine_yx[begin], &p.affine_yy[begin],
+                                      &p.stress_xx[begin], &p.stress_xy[begin], &p.stress_yy[begin],
+                                      &p.x[begin], &p.x[begin], &p.x[begin]}};
+                   scatter(stencils, sources, count, tiles, ahead);
                  });
   for (int k = 0; k < tile_size; ++k)
   {

@@ -1,6 +1,7 @@
 #pragma once
 // The one place for vectors: four neighbouring grid nodes of a row, as scalars or as (x, y) pairs.
 
+#include <algorithm>
 #include <cstring>
 #include <string_view>
 #ifdef __AVX512F__
@@ -65,6 +66,20 @@ inline Pairs everywhere(const double* vector)
   // The masked form, since g++ 12 warns of uninitialised values within the plain one.
   return reinterpret_cast<Pairs>(_mm512_maskz_broadcast_f64x2(0xFF, _mm_loadu_pd(vector)));
 }
+/// The greater of what is there and the magnitude of a new value, number by number; skips what is no number.
+inline Pairs greatest_of(const Pairs& so_far, const Pairs& value)
+{
+  const auto greater = [](const Pairs& a, const Pairs& b)
+  { return reinterpret_cast<Pairs>(_mm512_maskz_max_pd(0xFF, a, b)); };
+  return greater(-value, greater(value, so_far));
+}
+/// The greatest of all numbers.
+inline double greatest_of(const Pairs& of)
+{
+  double greatest = 0;
+  for (int k = 0; k < 8; ++k) greatest = std::max(greatest, of[k]);
+  return greatest;
+}
 /// The vectors of four arguments, each summed over its nodes, side by side.
 inline Pairs sums(const Pairs& a, const Pairs& b, const Pairs& c, const Pairs& d)
 {
@@ -123,6 +138,18 @@ inline Pairs everywhere(const double* vector)
 {
   const Row row{vector[0], vector[1], vector[0], vector[1]};
   return {row, row};
+}
+inline Pairs greatest_of(const Pairs& so_far, const Pairs& value)
+{
+  const auto greater = [](const Row& a, const Row& b) { return a > b ? a : b; };
+  const auto greatest = [&](const Row& a, const Row& b) { return greater(-b, greater(b, a)); };
+  return {greatest(so_far.left, value.left), greatest(so_far.right, value.right)};
+}
+inline double greatest_of(const Pairs& of)
+{
+  double greatest = 0;
+  for (int k = 0; k < 4; ++k) greatest = std::max({greatest, of.left[k], of.right[k]});
+  return greatest;
 }
 inline Row sums(const Pairs& a, const Pairs& b)
 {

@@ -1,5 +1,7 @@
 #include "solver/mpm/step.hpp"
 
+#include <cmath>
+
 namespace mpm
 {
 namespace
@@ -23,7 +25,7 @@ void wrap(Domain& domain)
 
 void find_diverged(const Domain& domain)
 {
-  if (domain.greatest_move <= move_limit) return;
+  if (domain.greatest_move <= move_limit && std::isfinite(domain.ledger.step.work)) return;
   throw Diverged(
       domain.name +
       ": a particle moves more than a quarter of a cell, or is deformed wholly, in the step at t = " +

@@ -17,7 +17,8 @@ constexpr double time_step = 1e-6; // s; short, so that the block stays as it is
 Domain ground(int particles)
 {
   const double width = std::round(std::sqrt(particles / 9.0));
-  Domain domain = scenes::make_domain({{scenes::von_mises(1e4, 5e3, 0.1), {3, 3, width, width}, 1.0 / 3}}, 1, 0.2);
+  Domain domain =
+      scenes::make_domain({{scenes::von_mises(1e4, 5e3, 0.1), {3, 3, width, width}, 1.0 / 3}}, 1, 0.2);
   scenes::random_velocities(domain, 0.1, 2);
   particles_to_grid(domain, time_step);
   solve_grid(domain, time_step);
@@ -91,7 +92,12 @@ void sort(benchmark::State& state)
 BENCHMARK(stencils)->Arg(100000);
 BENCHMARK(scatter)->Arg(1000)->Arg(10000)->Arg(100000)->Arg(1000000);
 BENCHMARK(grid)->Arg(100000);
-BENCHMARK(gather)->Args({1000, 0})->Args({10000, 0})->Args({100000, 0})->Args({1000000, 0})->Args({100000, 90});
+BENCHMARK(gather)
+    ->Args({1000, 0})
+    ->Args({10000, 0})
+    ->Args({100000, 0})
+    ->Args({1000000, 0})
+    ->Args({100000, 90});
 BENCHMARK(deformation_and_stress)->Arg(100000);
 BENCHMARK(sort)->Arg(100000)->Arg(1000000);
 
