@@ -28,9 +28,11 @@ std::array<double, 2> free_field_displacement(const std::vector<FreeFieldBase>& 
           a.displacement[1] + share * (b.displacement[1] - a.displacement[1])};
 }
 
-void BaseSpring::follow(const std::vector<std::array<double, 2>>& distance, double dt)
+std::vector<std::array<double, 2>> BaseSpring::follow(const std::vector<std::array<double, 2>>& distance,
+                                                      double dt)
 {
-  if (time_ <= 0) return;
+  std::vector<std::array<double, 2>> far_end(distance.size());
+  if (!acts()) return far_end;
   stretch_.resize(distance.size(), {});
   reaction_.resize(distance.size(), {});
   const double share = -std::expm1(-dt / (lag * time_)); // exact for a distance that stays over the step
@@ -39,13 +41,9 @@ void BaseSpring::follow(const std::vector<std::array<double, 2>>& distance, doub
     {
       stretch_[k][c] += share * (distance[k][c] - stretch_[k][c]);
       reaction_[k][c] += dt / (take_over * time_) * stretch_[k][c];
+      far_end[k][c] = (stretch_[k][c] + reaction_[k][c]) / time_;
     }
-}
-
-std::array<double, 2> BaseSpring::far_end_velocity(std::size_t face) const
-{
-  if (time_ <= 0) return {};
-  return {(stretch_[face][0] + reaction_[face][0]) / time_, (stretch_[face][1] + reaction_[face][1]) / time_};
+  return far_end;
 }
 
 void BaseSpring::visit_state(StateVisitor& visitor)

@@ -44,10 +44,10 @@ class BaseSpring
 public:
   /// `time` is T in s; 0: no spring.
   explicit BaseSpring(double time) : time_(time) {}
-  /// Takes in the distance of each face from the free field over a step of dt s.
-  void follow(const std::vector<std::array<double, 2>>& distance, double dt);
-  /// The spring's force on a face as the speed of the far end of the face's dashpot, m/s.
-  std::array<double, 2> far_end_velocity(std::size_t face) const;
+  bool acts() const { return time_ > 0; }
+  /// Takes in the distance of each face from the free field over a step of dt s. Returns the spring's force
+  /// on each face as the velocity of the far end of the face's dashpot, m/s.
+  std::vector<std::array<double, 2>> follow(const std::vector<std::array<double, 2>>& distance, double dt);
   void visit_state(StateVisitor& visitor);
 
 private:

@@ -7,32 +7,30 @@ namespace mpm
 {
 void CompliantBase::add_forces(Domain& domain, double dt)
 {
-  stretch_spring(domain, dt);
+  nodes_.find(domain, faces_, stretch_spring(domain, dt));
   const auto [vx, vy] = wave_->velocity(domain.time + 0.5 * dt);
   Grid& g = domain.grid;
-  for_each_face_node(domain, faces_,
-                     [&](const Face& face, int node, int, double weight)
-                     {
-                       const auto [sx, sy] = spring_.far_end_velocity(&face - faces_.data());
-                       const double cx = face.dashpot_x * weight, cy = face.dashpot_y * weight;
-                       g.dashpot_x[node] += cx;
-                       g.dashpot_y[node] += cy;
-                       g.force_x[node] += cx * (2 * vx + sx);
-                       g.force_y[node] += cy * (2 * vy + sy);
-                     });
+  for (const FaceNode& at : nodes_)
+  {
+    g.dashpot_x[at.node] += at.dashpot_x;
+    g.dashpot_y[at.node] += at.dashpot_y;
+    g.force_x[at.node] += 2 * vx * at.dashpot_x + at.drive_x;
+    g.force_y[at.node] += 2 * vy * at.dashpot_y + at.drive_y;
+  }
   input_[0][0] += 2 * vx * dt;
   input_[0][1] += 2 * vy * dt;
 }
 
-void CompliantBase::stretch_spring(const Domain& domain, double dt)
+std::vector<std::array<double, 2>> CompliantBase::stretch_spring(const Domain& domain, double dt)
 {
+  if (!spring_.acts()) return {};
   std::vector<std::array<double, 2>> behind; // what a face lacks to the free field
   for (const Face& face : faces_)
   {
     const auto [x, y] = distance(domain, free_field_, face);
     behind.push_back({-x, -y});
   }
-  spring_.follow(behind, dt);
+  return spring_.follow(behind, dt);
 }
 
 std::array<double, 2> CompliantBase::distance(const Domain& domain,
@@ -82,16 +80,13 @@ void CompliantBase::measure_work(const Domain& domain, double dt, Energies& now)
 {
   const auto [ux, uy] = wave_->velocity(domain.time + 0.5 * dt);
   double incoming = 0, radiated = 0, spring = 0;
-  for_each_face_node(domain, faces_,
-                     [&](const Face& face, int node, int, double weight)
-                     {
-                       const auto [vx, vy] = domain.grid.middle_velocity(node);
-                       const double cx = face.dashpot_x * weight, cy = face.dashpot_y * weight;
-                       const auto [sx, sy] = spring_.far_end_velocity(&face - faces_.data());
-                       spring += cx * sx * vx + cy * sy * vy;
-                       incoming += cx * ux * ux + cy * uy * uy;
-                       radiated += cx * (vx - ux) * (vx - ux) + cy * (vy - uy) * (vy - uy);
-                     });
+  for (const FaceNode& at : nodes_)
+  {
+    const auto [vx, vy] = domain.grid.middle_velocity(at.node);
+    spring += at.drive_x * vx + at.drive_y * vy;
+    incoming += at.dashpot_x * ux * ux + at.dashpot_y * uy * uy;
+    radiated += at.dashpot_x * (vx - ux) * (vx - ux) + at.dashpot_y * (vy - uy) * (vy - uy);
+  }
   now[Energy::incoming] += dt * incoming;
   now[Energy::radiated_base] += dt * radiated;
   now[Energy::reaction] += dt * spring;

@@ -64,9 +64,11 @@ public:
 private:
   std::array<double, 2> distance(const Domain& domain, const std::vector<FreeFieldBase>& free_field,
                                  const Face& face) const;
-  void stretch_spring(const Domain& domain, double dt);
+  /// Velocity of the spring's far end behind each face, m/s; empty without a spring.
+  std::vector<std::array<double, 2>> stretch_spring(const Domain& domain, double dt);
 
   std::vector<Face> faces_; ///< from the left to the right
+  FaceNodes nodes_;         ///< of the last step
   std::shared_ptr<const IncomingWave> wave_;
   BaseSpring spring_;
   std::vector<FreeFieldBase> free_field_;

@@ -3,6 +3,8 @@
 #include "solver/mpm/domain.hpp"
 #include "solver/mpm/spline.hpp"
 
+#include <span>
+
 namespace mpm
 {
 /// The piece of an outer face that belongs to a particle of the outer row: it moves with the particle, half a
@@ -26,24 +28,33 @@ enum class Edge
 /// distance h/n. Impedances rho c are those of each particle's own material (eqs. 4, 5).
 std::vector<Face> find_faces(const Domain& domain, Edge edge, double position, double size);
 
-/// Calls f(node, j, weight) for the 16 grid nodes around each face; j is the node's grid row.
-template <class Function>
-void for_each_face_node(const Domain& domain, const std::vector<Face>& faces, const Function& f)
+/// What of the faces' dashpots acts at one grid node.
+struct FaceNode
 {
-  const Grid& g = domain.grid;
-  NodeFinder find(g);
-  for (const Face& face : faces)
-  {
-    const int k = domain.place[face.particle];
-    const Stencil sx = cubic_stencil(domain.particles.x[k] + face.offset_x - g.origin_x, g.spacing);
-    const Stencil sy = cubic_stencil(domain.particles.y[k] + face.offset_y - g.origin_y, g.spacing);
-    find.move_to(sx.first, sy.first);
-    for (int j = 0; j < 4; ++j)
-      for (int i = 0; i < 4; ++i)
-        if (const int node = find(sx.first + i, sy.first + j); node >= 0)
-          f(face, node, sy.first + j, sx.weight[i] * sy.weight[j]);
-  }
-}
+  int node, row;               ///< place in the node fields, row of the grid
+  double dashpot_x, dashpot_y; ///< N s/m per m
+  double drive_x, drive_y;     ///< force of the dashpots' own far ends, N per m
+};
+
+/// The nodes around faces, each of them once, with the sums of what acts there.
+class FaceNodes
+{
+public:
+  /// Spreads the dashpots of `faces` over the 16 nodes around each, where they stand now. Face k has a far
+  /// end of its own that moves with `far_end`[k], m/s; empty for none.
+  void find(const Domain& domain, const std::vector<Face>& faces,
+            std::span<const std::array<double, 2>> far_end = {});
+
+  auto begin() const { return nodes_.begin(); }
+  auto end() const { return nodes_.end(); }
+
+private:
+  struct CellSums;
+  void add(const Grid& grid, const NodeFinder& find, const CellSums& sums);
+
+  std::vector<FaceNode> nodes_;
+  std::vector<int> slot_; ///< of each grid node in nodes_, -1 if none
+};
 
 /// Saves or loads faces, under names that begin with `prefix`.
 void visit_faces(StateVisitor& visitor, std::string prefix, std::vector<Face>& faces);

@@ -116,16 +116,15 @@ std::array<double, 2> FreeFieldSide::column_velocity(int row) const
 void FreeFieldSide::add_forces(Domain& domain, double dt)
 {
   Grid& g = domain.grid;
-  for_each_face_node(domain, faces_,
-                     [&](const Face& face, int node, int row, double weight)
-                     {
-                       const double cx = face.dashpot_x * weight, cy = face.dashpot_y * weight;
-                       const auto [vx, vy] = column_velocity(row);
-                       g.dashpot_x[node] += cx;
-                       g.dashpot_y[node] += cy;
-                       g.force_x[node] += cx * vx;
-                       g.force_y[node] += cy * vy;
-                     });
+  nodes_.find(domain, faces_);
+  for (const FaceNode& at : nodes_)
+  {
+    const auto [vx, vy] = column_velocity(at.row);
+    g.dashpot_x[at.node] += at.dashpot_x;
+    g.dashpot_y[at.node] += at.dashpot_y;
+    g.force_x[at.node] += at.dashpot_x * vx;
+    g.force_y[at.node] += at.dashpot_y * vy;
+  }
   if (!column_) return;
   add_ghost_base(domain, dt);
   std::vector<Eigen::Matrix2d> stress(ghosts_.size());
@@ -134,18 +133,18 @@ void FreeFieldSide::add_forces(Domain& domain, double dt)
   blocks_.add_forces(domain, ghosts_, {stress, column_->acceleration, column_->first_row});
 }
 
-void FreeFieldSide::add_ghost_base(Domain& domain, double dt) const
+void FreeFieldSide::add_ghost_base(Domain& domain, double dt)
 {
   const auto [ux, uy] = wave_->velocity(domain.time + 0.5 * dt);
   Grid& g = domain.grid;
-  for_each_face_node(domain, ghost_base_,
-                     [&](const Face& face, int node, int row, double weight)
-                     {
-                       if (g.mass[node] <= 0) return;
-                       const auto [vx, vy] = column_velocity(row);
-                       g.force_x[node] += face.dashpot_x * weight * (2 * ux - vx);
-                       g.force_y[node] += face.dashpot_y * weight * (2 * uy - vy);
-                     });
+  ghost_nodes_.find(domain, ghost_base_);
+  for (const FaceNode& at : ghost_nodes_)
+  {
+    if (g.mass[at.node] <= 0) continue;
+    const auto [vx, vy] = column_velocity(at.row);
+    g.force_x[at.node] += at.dashpot_x * (2 * ux - vx);
+    g.force_y[at.node] += at.dashpot_y * (2 * uy - vy);
+  }
 }
 
 /// The dashpots' traction c (v_column - v) does the work c (v_column - v) v_column - c (v - v_column)^2: what
@@ -153,15 +152,13 @@ void FreeFieldSide::add_ghost_base(Domain& domain, double dt) const
 void FreeFieldSide::measure_work(const Domain& domain, double dt, Energies& now) const
 {
   double brought = 0, radiated = 0;
-  for_each_face_node(domain, faces_,
-                     [&](const Face& face, int node, int row, double weight)
-                     {
-                       const auto [vx, vy] = domain.grid.middle_velocity(node);
-                       const auto [ux, uy] = column_velocity(row);
-                       const double cx = face.dashpot_x * weight, cy = face.dashpot_y * weight;
-                       brought += cx * (ux - vx) * ux + cy * (uy - vy) * uy;
-                       radiated += cx * (vx - ux) * (vx - ux) + cy * (vy - uy) * (vy - uy);
-                     });
+  for (const FaceNode& at : nodes_)
+  {
+    const auto [vx, vy] = domain.grid.middle_velocity(at.node);
+    const auto [ux, uy] = column_velocity(at.row);
+    brought += at.dashpot_x * (ux - vx) * ux + at.dashpot_y * (uy - vy) * uy;
+    radiated += at.dashpot_x * (vx - ux) * (vx - ux) + at.dashpot_y * (vy - uy) * (vy - uy);
+  }
   now[Energy::radiated_sides] += dt * radiated;
   if (!column_) return;
   now[Energy::free_field] += dt * (brought + ghost_base_power(domain, dt)) + blocks_.work(domain, dt);
@@ -171,14 +168,12 @@ double FreeFieldSide::ghost_base_power(const Domain& domain, double dt) const
 {
   const auto [ux, uy] = wave_->velocity(domain.time + 0.5 * dt);
   double power = 0;
-  for_each_face_node(domain, ghost_base_,
-                     [&](const Face& face, int node, int row, double weight)
-                     {
-                       const auto [vx, vy] = domain.grid.middle_velocity(node);
-                       const auto [cx, cy] = column_velocity(row);
-                       power += weight *
-                                (face.dashpot_x * (2 * ux - cx) * vx + face.dashpot_y * (2 * uy - cy) * vy);
-                     });
+  for (const FaceNode& at : ghost_nodes_)
+  {
+    const auto [vx, vy] = domain.grid.middle_velocity(at.node);
+    const auto [cx, cy] = column_velocity(at.row);
+    power += at.dashpot_x * (2 * ux - cx) * vx + at.dashpot_y * (2 * uy - cy) * vy;
+  }
   return power;
 }
 

@@ -64,7 +64,7 @@ public:
   double separation(const Domain& domain) const;
 
 private:
-  void add_ghost_base(Domain& domain, double dt) const;
+  void add_ghost_base(Domain& domain, double dt);
   double ghost_base_power(const Domain& domain, double dt) const;
   std::array<double, 2> column_velocity(int row) const;
 
@@ -72,7 +72,8 @@ private:
   const FreeFieldColumn* column_;
   std::shared_ptr<const IncomingWave> wave_;
   std::vector<Face> faces_;
-  std::vector<Face> ghost_base_; ///< base dashpots below the ghost rows
+  std::vector<Face> ghost_base_;  ///< base dashpots below the ghost rows
+  FaceNodes nodes_, ghost_nodes_; ///< of both, in the last step
   std::vector<Image> ghosts_;
   std::vector<std::int64_t> ghost_row_;
   std::vector<Eigen::Matrix2d> static_stress_; ///< of the column's rows at the switch

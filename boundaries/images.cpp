@@ -26,10 +26,11 @@ Image mirror(const Image& original, const Wall& wall, const Eigen::Vector2d& par
   return image;
 }
 
+/// Order of the images: by block, then as their parents stand, so that neighbours follow each other.
 struct Place
 {
   BlockIndex block;
-  int image;
+  int parent, image;
   auto operator<=>(const Place&) const = default;
 };
 } // namespace
@@ -79,7 +80,8 @@ void place_images(const Domain& domain, std::vector<Image>& images)
 void ImageBlocks::bind(const Domain& domain, const std::vector<Image>& images)
 {
   std::vector<Place> places;
-  for (std::size_t k = 0; k < images.size(); ++k) places.push_back({images[k].block, static_cast<int>(k)});
+  for (std::size_t k = 0; k < images.size(); ++k)
+    places.push_back({images[k].block, domain.place[images[k].parent], static_cast<int>(k)});
   std::sort(places.begin(), places.end());
   order_.clear();
   homes_.clear();
@@ -133,22 +135,44 @@ struct ImageSources
       weight[k][c] = image.weight[c];
     }
   }
+};
 
-  template <bool inertia>
-  void add(int k, const ChunkStencils& s, const RowAccelerations& a, PairTile& force) const
+/// Sums at the 16 nodes of one cell's stencil, kept while one image after the other stands in that cell.
+class ImageSums
+{
+public:
+  explicit ImageSums(int node) : node_(node) {}
+
+  void add(int k, const ChunkStencils& s, const ImageSources& from)
   {
-    const Pairs w = twice(s.x_weight[k]), f_slope = w * everywhere(stress_y[k]);
-    const Pairs f_w = twice(s.x_slope[k]) * everywhere(stress_x[k]) + w * everywhere(weight[k]);
+    const Pairs w = twice(s.x_weight[k]), f_slope = w * everywhere(from.stress_y[k]);
+    const Pairs f_w = twice(s.x_slope[k]) * everywhere(from.stress_x[k]) + w * everywhere(from.weight[k]);
+    const Row m = from.mass[k] * load_row(s.x_weight[k]);
+#pragma GCC unroll 4
     for (int j = 0; j < 4; ++j)
     {
-      double* node = &force.value[2 * (s.node[k] + j * tile_stride)];
-      Pairs row = load_pairs(node) + s.y_weight[j][k] * f_w;
-      row += s.y_slope[j][k] * f_slope;
-      if constexpr (inertia)
-        row += (-mass[k] * s.y_weight[j][k]) * (w * everywhere(a[s.node[k] / tile_stride + j].data()));
-      store_pairs(node, row);
+      force_[j] += s.y_weight[j][k] * f_w;
+      force_[j] += s.y_slope[j][k] * f_slope;
+      mass_[j] += s.y_weight[j][k] * m;
     }
   }
+
+  /// Adds the sums, less the inertia of the images' mass, to a tile.
+  void flush(const RowAccelerations& a, PairTile& force) const
+  {
+    for (int j = 0; j < 4; ++j)
+    {
+      const int node = node_ + j * tile_stride;
+      const Pairs inertia = twice(mass_[j]) * everywhere(a[node / tile_stride].data());
+      double* at = &force.value[2 * node];
+      store_pairs(at, load_pairs(at) + (force_[j] - inertia));
+    }
+  }
+
+private:
+  int node_;
+  Row mass_[4]{};
+  Pairs force_[4]{};
 };
 } // namespace
 
@@ -169,11 +193,13 @@ void ImageBlocks::scatter(const Domain& domain, ImageHome& home, const std::vect
       from.take(k, domain, images[image], extra.stress.empty() ? nullptr : &extra.stress[image]);
     }
     stencils.find(tile, from.x, from.y, count);
-    for (int k = 0; k < count; ++k)
-      if (extra.acceleration.empty())
-        from.add<false>(k, stencils, a, home.force);
-      else
-        from.add<true>(k, stencils, a, home.force);
+    for (int k = 0; k < count;)
+    {
+      const int node = stencils.node[k];
+      ImageSums sums(node);
+      for (; k < count && stencils.node[k] == node; ++k) sums.add(k, stencils, from);
+      sums.flush(a, home.force);
+    }
   }
 }
 

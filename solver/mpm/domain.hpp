@@ -24,6 +24,13 @@ struct Home
   BlockIndex block;
   Neighbours around;
   std::vector<Range> ranges;
+
+  int particles() const
+  {
+    int sum = 0;
+    for (const Range& range : ranges) sum += range.end - range.begin;
+    return sum;
+  }
 };
 
 /// A massless material point that moves with the interpolated grid velocity: a gauge.

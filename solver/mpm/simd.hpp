@@ -60,6 +60,12 @@ inline Pairs twice(const double* from)
   const Pairs row = load_pairs(from);
   return __builtin_shufflevector(row, row, 0, 0, 1, 1, 2, 2, 3, 3);
 }
+inline Pairs twice(const Row& row)
+{
+  return reinterpret_cast<Pairs>(
+      _mm512_maskz_permutexvar_pd(0xFF, _mm512_set_epi64(3, 3, 2, 2, 1, 1, 0, 0),
+                                  _mm512_castpd256_pd512(reinterpret_cast<__m256d>(row))));
+}
 /// One vector (x, y) at all nodes.
 inline Pairs everywhere(const double* vector)
 {
@@ -129,10 +135,13 @@ inline void store_pairs(double* to, const Pairs& pairs)
   store_row(to, pairs.left);
   store_row(to + 4, pairs.right);
 }
+inline Pairs twice(const Row& row)
+{
+  return {__builtin_shufflevector(row, row, 0, 0, 1, 1), __builtin_shufflevector(row, row, 2, 2, 3, 3)};
+}
 inline Pairs twice(const double* from)
 {
-  const Row row = load_row(from);
-  return {__builtin_shufflevector(row, row, 0, 0, 1, 1), __builtin_shufflevector(row, row, 2, 2, 3, 3)};
+  return twice(load_row(from));
 }
 inline Pairs everywhere(const double* vector)
 {
