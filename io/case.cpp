@@ -51,6 +51,17 @@ Extent read_domain(Section domain, Problems& problems)
   return extent;
 }
 
+double read_safety(Section& section, double fallback)
+{
+  constexpr double stable = 0.78; // METHODS section 7: an isolated particle of the cubic kernel
+  const double safety = section.number_or(fallback, "safety", Dimension::none,
+                                          {.lower = 0, .lower_allowed = false, .upper = 1});
+  if (safety > stable)
+    section.error("safety", "is above 0.78, where loose particles at the surface become unstable; 0.5 is the "
+                            "default of the seismic stage, 0.7 of the static one");
+  return safety;
+}
+
 StaticSettings read_static(Section section)
 {
   StaticSettings s;
@@ -58,6 +69,8 @@ StaticSettings read_static(Section section)
   s.ramp = section.number_or(s.ramp, "ramp", Dimension::time, Range::positive());
   s.damping = section.number_or(s.damping, "damping", Dimension::none,
                                 {.lower = 0, .upper = 1, .upper_allowed = false});
+  s.safety = read_safety(section, s.safety);
+  s.mass_scaling = section.choice_or(0, "masses", {"scaled", "physical"}) == 0;
   Section until = section.optional_section("until");
   s.until.unbalanced = until.number_or(s.until.unbalanced, "unbalanced", Dimension::none, Range::positive());
   s.until.kinetic = until.number_or(s.until.kinetic, "kinetic", Dimension::none, Range::positive());
@@ -66,18 +79,6 @@ StaticSettings read_static(Section section)
   if (s.until.at_most < s.ramp)
     until.error("at_most", "ends before the ramp does; give more than static.ramp");
   return s;
-}
-
-double read_safety(Section time_step)
-{
-  constexpr double stable = 0.78; // METHODS section 7: an isolated particle of the cubic kernel
-  const double safety =
-      time_step.number_or(0.5, "safety", Dimension::none, {.lower = 0, .lower_allowed = false, .upper = 1});
-  if (safety > stable)
-    time_step.error("safety",
-                    "is above 0.78, where loose particles at the surface become unstable; 0.5 is the "
-                    "default, 0.7 the fast limit");
-  return safety;
 }
 
 void read_parts(Case& scene, const YamlNode& tree, Problems& problems)
@@ -93,7 +94,8 @@ void read_parts(Case& scene, const YamlNode& tree, Problems& problems)
   scene.regions = read_regions(root, scene.surfaces, scene.materials, problems);
   scene.statics = read_static(root.optional_section("static"));
   scene.seismic = read_seismic(root, folder, problems);
-  scene.safety = read_safety(root.optional_section("time_step"));
+  Section time_step = root.optional_section("time_step");
+  scene.safety = read_safety(time_step, scene.safety);
   scene.output = read_output(root, scene.materials, problems);
 }
 } // namespace

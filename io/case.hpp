@@ -66,6 +66,8 @@ struct StaticSettings
   double gravity = 9.81; ///< m/s2, downwards; 0: no gravity and nothing to settle
   double ramp = 10;      ///< s
   double damping = 0.75; ///< fraction of the unbalanced force, in [0, 1)
+  double safety = 0.7;   ///< Courant number: no wave has to be carried, only stability counts
+  bool mass_scaling = true; ///< inertia that gives every material the slowest one's wave speed
   Convergence until;
 };
 

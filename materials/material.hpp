@@ -26,6 +26,8 @@ struct Material
   std::string name;
   Law law;
   std::vector<std::vector<double>> state;
+  /// Inertial over gravitational mass: 1, but where a static stage scales masses to settle in fewer steps.
+  double mass_scale = 1;
 
   const Elastic& elastic() const
   {

@@ -132,15 +132,20 @@ double kinetic_energy(const Domain& domain)
 {
   const Particles& p = domain.particles;
   const double inertia = domain.grid.spacing * domain.grid.spacing / 3; // D = h^2 / 3
-  double sum = 0;
-  for (int k = 0; k < p.size(); ++k)
+  double total = 0;
+  for (std::size_t m = 0; m < domain.materials.size(); ++m)
   {
-    const double translation = p.velocity_x[k] * p.velocity_x[k] + p.velocity_y[k] * p.velocity_y[k];
-    const double affine = p.affine_xx[k] * p.affine_xx[k] + p.affine_xy[k] * p.affine_xy[k] +
-                          p.affine_yx[k] * p.affine_yx[k] + p.affine_yy[k] * p.affine_yy[k];
-    sum += 0.5 * p.mass[k] * (translation + inertia * affine);
+    double sum = 0;
+    for (int k = domain.material_begin[m]; k < domain.material_begin[m + 1]; ++k)
+    {
+      const double translation = p.velocity_x[k] * p.velocity_x[k] + p.velocity_y[k] * p.velocity_y[k];
+      const double affine = p.affine_xx[k] * p.affine_xx[k] + p.affine_xy[k] * p.affine_xy[k] +
+                            p.affine_yx[k] * p.affine_yx[k] + p.affine_yy[k] * p.affine_yy[k];
+      sum += 0.5 * p.mass[k] * (translation + inertia * affine);
+    }
+    total += domain.materials[m].mass_scale * sum;
   }
-  return sum;
+  return total;
 }
 
 double greatest_speed(const Domain& domain)

@@ -59,12 +59,19 @@ struct Ahead
   }
 };
 
-/// Calls f(material, begin, count) for the chunks of a home block, in the order in which they are summed.
+/// Calls f(begin, count) for the chunks of a range, in the order in which they are summed.
+template <class Function>
+void for_each_chunk(const Range& range, const Function& f)
+{
+  for (int begin = range.begin; begin < range.end; begin += chunk_size)
+    f(begin, std::min(chunk_size, range.end - begin));
+}
+
+/// Calls f(material, begin, count) for the chunks of a home block.
 template <class Function>
 void for_each_chunk(const Home& home, const Function& f)
 {
   for (const Range& range : home.ranges)
-    for (int begin = range.begin; begin < range.end; begin += chunk_size)
-      f(range.material, begin, std::min(chunk_size, range.end - begin));
+    for_each_chunk(range, [&](int begin, int count) { f(range.material, begin, count); });
 }
 } // namespace mpm

@@ -45,7 +45,7 @@ struct Tracer
 struct Balance
 {
   double unbalanced = 0; ///< sum |f|, N per m
-  double total = 0;      ///< sum |f_int| + |f_ext|, N per m
+  double total = 0;      ///< twice the weight, what |f_int| + |f_ext| come to in equilibrium, N per m
   double ratio() const { return total > 0 ? unbalanced / total : 0; }
 };
 

@@ -14,17 +14,17 @@ struct Tiles
 /// m C column by column (eq. 2), internal force -V sigma column by column.
 struct Sources
 {
-  const double* mass;
+  alignas(64) double mass[chunk_size];
   alignas(64) double momentum[chunk_size][2], spread_x[chunk_size][2], spread_y[chunk_size][2];
   alignas(64) double force_x[chunk_size][2], force_y[chunk_size][2];
 
-  void gather(const Particles& p, int begin, int count)
+  void gather(const Particles& p, int begin, int count, double mass_scale)
   {
-    mass = &p.mass[begin];
     for (int k = 0; k < count; ++k)
     {
       const int q = begin + k;
-      const double m = p.mass[q], V = p.volume[q];
+      const double m = mass_scale * p.mass[q], V = p.volume[q];
+      mass[k] = m;
       momentum[k][0] = m * p.velocity_x[q];
       momentum[k][1] = m * p.velocity_y[q];
       spread_x[k][0] = m * p.affine_xx[q];
@@ -100,35 +100,43 @@ void scatter(const ChunkStencils& stencils, const Sources& sources, int count, T
   }
 }
 
-void scatter_home(Domain& domain, const Home& home)
+/// Adds one material's particles of a block to the grid.
+void scatter_range(Domain& domain, const Home& home, const Range& range)
 {
   Tiles tiles;
   std::memset(&tiles, 0, sizeof tiles);
   const TileStencils tile(domain.grid, home.block);
   const Particles& p = domain.particles;
+  const double mass_scale = domain.materials[range.material].mass_scale;
   ChunkStencils stencils;
   Sources sources;
-  for_each_chunk(home,
-                 [&](int, int begin, int count)
+  for_each_chunk(range,
+                 [&](int begin, int count)
                  {
-                   stencils.find(tile, &p.x[begin], &p.y[begin], count);
-                   sources.gather(p, begin, count);
                    const Ahead ahead{{&p.x[begin], &p.y[begin], &p.mass[begin], &p.volume[begin],
                                       &p.velocity_x[begin], &p.velocity_y[begin], &p.affine_xx[begin],
                                       &p.affine_xy[begin], &p.affine_yx[begin], &p.affine_yy[begin],
                                       &p.stress_xx[begin], &p.stress_xy[begin], &p.stress_yy[begin],
                                       &p.x[begin], &p.x[begin], &p.x[begin]}};
+                   stencils.find(tile, &p.x[begin], &p.y[begin], count);
+                   sources.gather(p, begin, count, mass_scale);
                    scatter(stencils, sources, count, tiles, ahead);
                  });
+  const double gx = domain.gravity_x / mass_scale, gy = domain.gravity_y / mass_scale;
   for (int k = 0; k < tile_size; ++k)
   {
-    tiles.force.value[2 * k] += domain.gravity_x * tiles.mass.value[k];
-    tiles.force.value[2 * k + 1] += domain.gravity_y * tiles.mass.value[k];
+    tiles.force.value[2 * k] += gx * tiles.mass.value[k];
+    tiles.force.value[2 * k + 1] += gy * tiles.mass.value[k];
   }
   Grid& grid = domain.grid;
   add_tile(grid, home.around, tiles.mass, grid.mass);
   add_tile(grid, home.around, tiles.momentum, grid.momentum_x, grid.momentum_y);
   add_tile(grid, home.around, tiles.force, grid.force_x, grid.force_y);
+}
+
+void scatter_home(Domain& domain, const Home& home)
+{
+  for (const Range& range : home.ranges) scatter_range(domain, home, range);
 }
 } // namespace
 

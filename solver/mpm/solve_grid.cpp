@@ -100,17 +100,26 @@ StepWork sum_of(const std::vector<StepWork>& parts, double dt)
   return sum;
 }
 
-Balance balance_of(const Domain& domain, int block, double gate)
+/// Sum of the forces on a block's nodes with more mass than `gate`, N per m.
+double unbalanced_of(const Grid& g, int block, double gate)
 {
-  const Grid& g = domain.grid;
-  Balance b;
+  double sum = 0;
   for (int k = block * block_nodes; k < (block + 1) * block_nodes; ++k)
-  {
-    if (g.mass[k] < gate) continue;
-    const double wx = g.mass[k] * domain.gravity_x, wy = g.mass[k] * domain.gravity_y;
-    b.unbalanced += std::hypot(g.force_x[k], g.force_y[k]);
-    b.total += std::hypot(g.force_x[k] - wx, g.force_y[k] - wy) + std::hypot(wx, wy);
-  }
+    if (g.mass[k] >= gate) sum += std::hypot(g.force_x[k], g.force_y[k]);
+  return sum;
+}
+
+/// In equilibrium internal forces are the opposite of weight, node by node, so that together they are twice
+/// the weight; masses may be scaled, weights are not.
+Balance balance_of(const Domain& domain, double cell_mass)
+{
+  const int blocks = static_cast<int>(domain.grid.blocks.size());
+  std::vector<double> parts(blocks);
+  parallel::for_each(blocks, [&](int k) { parts[k] = unbalanced_of(domain.grid, k, 0.01 * cell_mass); });
+  Balance b;
+  for (const double part : parts) b.unbalanced += part;
+  for (const double mass : domain.particles.mass) b.total += 2 * mass;
+  b.total *= std::hypot(domain.gravity_x, domain.gravity_y);
   return b;
 }
 } // namespace
@@ -136,14 +145,6 @@ void solve_grid(Domain& domain, double dt)
                        works[k] = work_of_block(grid, k, a);
                      });
   domain.ledger.step = sum_of(works, dt);
-  if (!domain.balance_wanted) return;
-  std::vector<Balance> parts(blocks);
-  parallel::for_each(blocks, [&](int k) { parts[k] = balance_of(domain, k, 0.01 * cell_mass); });
-  domain.balance = {};
-  for (const Balance& part : parts)
-  {
-    domain.balance.unbalanced += part.unbalanced;
-    domain.balance.total += part.total;
-  }
+  if (domain.balance_wanted) domain.balance = balance_of(domain, cell_mass);
 }
 } // namespace mpm

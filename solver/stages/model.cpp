@@ -231,6 +231,21 @@ void advance(Model& model, double time, double dt)
   step(*model.main, dt);
 }
 
+void scale_masses(Model& model)
+{
+  const auto& materials = model.main->materials;
+  const auto& begin = model.main->material_begin;
+  double slowest = std::numeric_limits<double>::infinity();
+  for (std::size_t m = 0; m < materials.size(); ++m)
+    if (begin[m + 1] > begin[m]) slowest = std::min(slowest, materials[m].elastic().pressure_speed());
+  model.for_each_domain(
+      [&](Domain& domain, const std::string&)
+      {
+        for (Material& material : domain.materials)
+          material.mass_scale = std::pow(material.elastic().pressure_speed() / slowest, 2);
+      });
+}
+
 double greatest_wave_speed(const Domain& domain)
 {
   const Particles& p = domain.particles;
@@ -239,7 +254,7 @@ double greatest_wave_speed(const Domain& domain)
   {
     double lightest = std::numeric_limits<double>::infinity();
     for (int k = domain.material_begin[m]; k < domain.material_begin[m + 1]; ++k)
-      lightest = std::min(lightest, p.mass[k] / p.volume[k]);
+      lightest = std::min(lightest, domain.materials[m].mass_scale * p.mass[k] / p.volume[k]);
     greatest = std::max(greatest, std::sqrt(domain.materials[m].elastic().p_modulus() / lightest));
   }
   return greatest;

@@ -53,4 +53,8 @@ void advance(Model& model, double time, double dt);
 
 /// Greatest pressure-wave speed of the scene as it is now (rho = m/V), m/s.
 double greatest_wave_speed(const Domain& domain);
+
+/// Makes inertial masses so large that pressure waves are as slow in every material as in the slowest one: a
+/// static stage then settles in fewer steps, to the same equilibrium, since weights stay as they are.
+void scale_masses(Model& model);
 } // namespace mpm

@@ -164,7 +164,7 @@ int Relaxation::run(Clock& clock)
     if (clock.step % 100 == 0)
     {
       check(clock);
-      check_step(session_, model_, clock);
+      check_step(session_, model_, session_.scene.statics.safety, clock);
     }
     if (progress.due()) progress.update(moment());
     if (!done && (session_.must_stop() || session_.checkpoint_due()))

@@ -199,7 +199,7 @@ private:
       {
         check_particles(*model_.main, model_.reference_volume);
         energy_.check(clock.time());
-        check_step(session_, model_, clock);
+        check_step(session_, model_, session_.scene.safety, clock);
       }
       if (progress.due()) progress.update(moment());
       if (session_.must_stop() || session_.checkpoint_due())

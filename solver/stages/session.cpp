@@ -275,10 +275,10 @@ std::vector<std::string> ground_settings(const Case& scene)
   return lines;
 }
 
-void check_step(Session& session, const Model& model, Clock& clock)
+void check_step(Session& session, const Model& model, double safety, Clock& clock)
 {
   const double h = session.scene.grid.spacing, speed = greatest_wave_speed(*model.main);
-  const double limit = session.scene.safety < courant_limit ? courant_limit : stability_limit;
+  const double limit = safety < courant_limit ? courant_limit : stability_limit;
   if (clock.dt * speed <= limit * h) return;
   clock.change_step(clock.dt / 2);
   session.log.warn(

@@ -85,7 +85,7 @@ private:
 };
 
 /// Halves the step when the ground has become so loose that waves outrun it.
-void check_step(Session& session, const Model& model, Clock& clock);
+void check_step(Session& session, const Model& model, double safety, Clock& clock);
 
 /// Parses the command line, runs `stage` and maps every way to end to its exit code (INTERFACE: exit codes).
 int run_program(int argc, char** argv, const std::string& name, int (*stage)(Session&));

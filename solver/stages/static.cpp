@@ -23,7 +23,8 @@ int run_static(Session& session)
   Model model = make_model(scene);
   add_static_boundaries(model, scene);
   Clock clock;
-  clock.dt = scene.safety * scene.grid.spacing / greatest_wave_speed(*model.main);
+  if (scene.statics.mass_scaling) scale_masses(model);
+  clock.dt = scene.statics.safety * scene.grid.spacing / greatest_wave_speed(*model.main);
   if (session.options.check)
   {
     report_wave_fidelity(session, clock.dt, nullptr);

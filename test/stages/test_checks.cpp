@@ -33,14 +33,14 @@ TEST_CASE("a step is halved when the ground has loosened so far that waves outru
   clock.step = 10;
   clock.dt = stable_step(session.scene, model);
   const double dt = clock.dt, time = clock.time();
-  check_step(session, model, clock);
+  check_step(session, model, session.scene.safety, clock);
   CHECK(clock.dt == dt);
   // c_p goes with the root of the volume: 0.5 grows to 0.69, then to 0.71.
   for (double& volume : model.main->particles.volume) volume *= 1.38 * 1.38;
-  check_step(session, model, clock);
+  check_step(session, model, session.scene.safety, clock);
   CHECK(clock.dt == dt);
   for (double& volume : model.main->particles.volume) volume *= (1.42 * 1.42) / (1.38 * 1.38);
-  check_step(session, model, clock);
+  check_step(session, model, session.scene.safety, clock);
   CHECK(clock.dt == dt / 2);
   CHECK(clock.time() == time);
 }

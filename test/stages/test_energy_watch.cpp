@@ -23,7 +23,8 @@ double lost_on_the_way(double length, double way, double speed, double h, double
   {
     std::complex<double> amplitude = 0;
     for (double t = 0; t < length; t += length / 500)
-      amplitude += std::pow(std::sin(pi * t / length), 4) * std::exp(std::complex<double>(0, -2 * pi * f * t));
+      amplitude +=
+          std::pow(std::sin(pi * t / length), 4) * std::exp(std::complex<double>(0, -2 * pi * f * t));
     const double omega = 2 * pi * f, k = omega / speed;
     const double xi = 0.0471 * std::pow(k * h, 3) / (2 * dt * speed / h);
     all += std::norm(amplitude);

@@ -804,7 +804,8 @@ TEST_CASE("a run tells what it carries of the motion, warns of what it loses, an
   };
   const auto usual = summary_of("usual", {}),
              small = summary_of("small", {"--set", "time_step.safety=0.125"});
-  const auto waves = [](const nlohmann::json& summary) { return summary["resolution"]["materials"]["clay"]["S"]; };
+  const auto waves = [](const nlohmann::json& summary)
+  { return summary["resolution"]["materials"]["clay"]["S"]; };
   CHECK(waves(usual)["carried_to"] ==
         std::min(waves(usual)["phase_limit"].get<double>(), waves(usual)["damping_limit"].get<double>()));
   CHECK(waves(usual).contains("arias_share_above"));
