@@ -25,6 +25,7 @@ std::span<const LadderCase> ladder_cases()
       LadderCase{"level_site", run_level_site},         // V14
       LadderCase{"hill", run_hill},                     // V15
       LadderCase{"strip_footing", run_strip_footing},   // V16
+      LadderCase{"shear_band", run_shear_band},         // V18
       LadderCase{"vertical_cut", run_vertical_cut},     // V19
       LadderCase{"sliding_block", run_sliding_block},   // V20
       LadderCase{"dam_break", run_dam_break},           // V21

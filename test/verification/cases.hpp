@@ -28,6 +28,8 @@ Findings run_line_load(const std::filesystem::path& folder, double spacing);
 Findings run_hill(const std::filesystem::path& folder, double spacing);
 /// A rigid strip pressed into clay.
 Findings run_strip_footing(const std::filesystem::path& folder, double spacing);
+/// A band of softening clay in a shear box.
+Findings run_shear_band(const std::filesystem::path& folder, double spacing);
 /// Clay of falling strength in a vertical cut.
 Findings run_vertical_cut(const std::filesystem::path& folder, double spacing);
 /// An infinite slope on a weak layer under shaking.

@@ -106,6 +106,11 @@ TEST_CASE("A strip footing fails on clay at the load of limit analysis (V16)", "
   quick("strip_footing");
 }
 
+TEST_CASE("A softening band dissipates what the spline's shape makes of its rows (V18)", "[verification]")
+{
+  quick("shear_band");
+}
+
 TEST_CASE("A vertical cut in clay fails near the number of limit analysis (V19)", "[verification]")
 {
   quick("vertical_cut");
