@@ -106,6 +106,11 @@ TEST_CASE("A strip footing fails on clay at the load of limit analysis (V16)", "
   quick("strip_footing");
 }
 
+TEST_CASE("Laws reach the limit states of triaxial, biaxial and shear tests (V17)", "[verification]")
+{
+  quick("laws");
+}
+
 TEST_CASE("A softening band dissipates what the spline's shape makes of its rows (V18)", "[verification]")
 {
   quick("shear_band");
@@ -116,14 +121,29 @@ TEST_CASE("A vertical cut in clay fails near the number of limit analysis (V19)"
   quick("vertical_cut");
 }
 
+TEST_CASE("Slopes fail at the factors of safety of circles (V19)", "[verification]")
+{
+  quick("slope");
+}
+
 TEST_CASE("A block on a weak layer slides as Newmark's (V20)", "[verification]")
 {
   quick("sliding_block");
 }
 
+TEST_CASE("A block on a weakening layer slides as Newmark's (V20)", "[verification]")
+{
+  quick("weakening_slope");
+}
+
 TEST_CASE("Water behind a broken dam flows as shallow water and not faster (V21)", "[verification]")
 {
   quick("dam_break");
+}
+
+TEST_CASE("Columns of sand run out by powers of their height (V22)", "[verification]")
+{
+  quick("column_collapse");
 }
 
 TEST_CASE("Every case of the ladder states a bound for each resolution that it runs", "[verification]")
