@@ -22,6 +22,7 @@ struct GridSettings
 {
   double spacing = NAN;
   int particles_per_cell = 3;
+  bool average_volume = false; ///< volume changes of the cell, not of the particle
 
   double particle_spacing() const { return spacing / particles_per_cell; } ///< m
 };

@@ -43,6 +43,7 @@ void step(Domain& domain, double dt)
   domain.times.lap(Phase::grid);
   account(domain, dt); //     its work, for the energy ledger
   domain.times.lap(Phase::boundaries);
+  if (domain.average_volume) average_volume_changes(domain, dt);
   grid_to_particles(domain, dt); // (c) velocities back to the particles, (d) deformation and stress
   find_diverged(domain);
   domain.drift += domain.greatest_move;

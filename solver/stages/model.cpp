@@ -19,6 +19,7 @@ void plant(Domain& domain, const Case& scene, std::vector<Seed> seeds)
   std::vector<int> counts(scene.materials.size(), 0);
   for (const Seed& seed : seeds) ++counts[seed.material];
   set_materials(domain, scene.materials, counts);
+  domain.average_volume = scene.grid.average_volume;
   Particles& p = domain.particles;
   for (std::size_t k = 0; k < seeds.size(); ++k)
   {

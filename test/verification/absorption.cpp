@@ -180,9 +180,8 @@ double table_error(const std::map<std::string, std::vector<double>>& table, Wave
                   reflected_energy(kind, std::sin(table.at("angle")[k] * std::numbers::pi / 180), law)));
   return error;
 }
-} // namespace
-
-Findings run_absorption(const std::filesystem::path& folder, double spacing)
+/// Packets at these angles from the vertical, in degrees.
+Findings absorb(const std::filesystem::path& folder, double spacing, const std::vector<double>& angles)
 {
   const auto table = read_table(folder / "reference.csv");
   const Elastic law = scene_at(folder, spacing).materials[0].elastic();
@@ -191,7 +190,7 @@ Findings run_absorption(const std::filesystem::path& folder, double spacing)
   for (const WaveKind kind : {WaveKind::P, WaveKind::S})
   {
     const std::string name = kind == WaveKind::P ? "P" : "S";
-    Curve curve{name, "angle from the normal (degrees)", "share of energy reflected", {0, 30, 50}, {}, {}};
+    Curve curve{name, "angle from the normal (degrees)", "share of energy reflected", angles, {}, {}};
     for (const double degrees : curve.x)
     {
       const Packet packet = make_packet(kind, degrees * std::numbers::pi / 180);
@@ -204,5 +203,16 @@ Findings run_absorption(const std::filesystem::path& folder, double spacing)
     findings.curves.push_back(curve);
   }
   return findings;
+}
+} // namespace
+
+Findings run_absorption(const std::filesystem::path& folder, double spacing)
+{
+  return absorb(folder, spacing, {0, 30, 50});
+}
+
+Findings run_absorption_steep(const std::filesystem::path& folder, double spacing)
+{
+  return absorb(folder / "../absorption", spacing, {60, 70});
 }
 } // namespace mpm::verification

@@ -20,6 +20,9 @@ double shaking(const InfiniteSlope& slope, double t)
   return t < period ? -slope.pulse * std::sin(2 * std::numbers::pi * t / period) : 0;
 }
 
+constexpr double length = 60, low = 10;   // m, of a block of finite length and its thickness
+constexpr double behind = 10, ahead = 20; // m, of the zone beyond it
+
 /// Gravity presses and pulls, every stress in equilibrium and equal in all directions but for the shear.
 void stress_by_weight(Domain& domain, double top)
 {
@@ -63,6 +66,51 @@ Slide slide(const InfiniteSlope& slope)
     step(domain, dt);
     const int top_particle = domain.place[id];
     result.slip = domain.particles.x[top_particle] - domain.particles.reference_x[top_particle];
+    if (result.trigger == 0 && result.slip > triggered) result.trigger = domain.time + dt;
+  }
+  return result;
+}
+
+Slide slide_finite(const InfiniteSlope& slope)
+{
+  const double h = slope.spacing, sole = h * rock, zone = h * (rock + slope.zone_cells);
+  const double across = behind + length + ahead;
+  Elastic stiff = slope.law;
+  Domain domain = scenes::make_domain({{stiff, {0, 0, across, sole}, h / 2},
+                                       {slope.law, {0, sole, across, zone - sole}, h / 2},
+                                       {stiff, {behind, zone, length, low}, h / 2}},
+                                      h);
+  domain.boundaries.push_back(std::make_unique<MirroredWall>(Wall{Direction::y, 0, 1, false}));
+  domain.boundaries.push_back(std::make_unique<MirroredWall>(Wall{Direction::x, 0, 1, true}));
+  const int last = static_cast<int>(std::lround(across / h));
+  domain.boundaries.push_back(std::make_unique<MirroredWall>(Wall{Direction::x, last, -1, true}));
+  sort_particles(domain);
+  // Gravity grows while the ground is elastic and damped.
+  const double dt = 0.5 * h / stiff.pressure_speed(), ramp = 0.5, settled = 1;
+  domain.plastic = false;
+  domain.damping = 0.7;
+  for (int k = 0; k * dt < settled; ++k)
+  {
+    const double part = std::min(1.0, k * dt / ramp);
+    domain.gravity_x = part * g * std::sin(angle);
+    domain.gravity_y = -part * g * std::cos(angle);
+    step(domain, dt);
+  }
+  domain.plastic = true;
+  domain.damping = 0;
+  domain.flip_blend = slope.flip_blend;
+  domain.particles.reference_x = domain.particles.x;
+  Slide result;
+  for (int k = 0; k * dt < slope.duration; ++k)
+  {
+    domain.time = k * dt;
+    domain.gravity_x = g * std::sin(angle) - shaking(slope, domain.time + 0.5 * dt);
+    step(domain, dt);
+    const Particles& p = domain.particles;
+    double sum = 0;
+    for (int q = domain.material_begin[2]; q < domain.material_begin[3]; ++q)
+      sum += p.x[q] - p.reference_x[q];
+    result.slip = sum / (domain.material_begin[3] - domain.material_begin[2]);
     if (result.trigger == 0 && result.slip > triggered) result.trigger = domain.time + dt;
   }
   return result;

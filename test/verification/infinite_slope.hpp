@@ -25,6 +25,10 @@ struct Slide
 /// The slope by the material point method, a column of one cell's width.
 Slide slide(const InfiniteSlope& slope);
 
+/// A block of the slope, 60 m long and 10 m thick, on the zone, which goes on beyond it; as a model of two
+/// dimensions. The slip is its mean.
+Slide slide_finite(const InfiniteSlope& slope);
+
 /// The same block, rigid, on a plane: d'' = g sin - tau/sigma_n(d) g cos - a(t), by Runge-Kutta steps of 1e-4
 /// s (Newmark 1965, with friction that weakens).
 Slide rigid_block(const InfiniteSlope& slope);

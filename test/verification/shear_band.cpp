@@ -1,6 +1,7 @@
 #include "test/verification/shear_band.hpp"
 
 #include "test/scenes.hpp"
+#include "test/verification/cases.hpp"
 
 #include <numbers>
 #include <stdexcept>
@@ -9,29 +10,33 @@ namespace mpm::verification
 {
 namespace
 {
-constexpr double width = 12;  // m, of the box
-constexpr double speed = 0.2; // m/s, of one half past the other: slow against waves of 100 m/s
-constexpr int rim = 3;        // cells, held by the grip
+constexpr int cells = 24;      // across the box
+constexpr int rim = 3;         // cells, held by the grip
+constexpr double speed = 0.05; // m/s per m of cell, of one half past the other: slow against waves of 100 m/s
+constexpr double slip = 0.5;   // m, two and a half times what softens
 
 /// Moves every node within the rim as one of two rigid halves.
 class Grip final : public Boundary
 {
 public:
-  Grip(double cosine, double sine) : cosine_(cosine), sine_(sine) {}
+  Grip(double cosine, double sine, double width, double speed)
+      : cosine_(cosine), sine_(sine), width_(width), speed_(speed)
+  {
+  }
 
   void constrain(Domain& domain) override
   {
     Grid& grid = domain.grid;
-    const double inside = 0.5 * width - rim * grid.spacing;
+    const double inside = 0.5 * width_ - rim * grid.spacing;
     for (std::size_t b = 0; b < grid.blocks.size(); ++b)
       for (int k = 0; k < block_nodes; ++k)
       {
-        const double x = grid.spacing * (grid.blocks[b].x * block_cells + k % block_cells) - 0.5 * width;
-        const double y = grid.spacing * (grid.blocks[b].y * block_cells + k / block_cells) - 0.5 * width;
+        const double x = grid.spacing * (grid.blocks[b].x * block_cells + k % block_cells) - 0.5 * width_;
+        const double y = grid.spacing * (grid.blocks[b].y * block_cells + k / block_cells) - 0.5 * width_;
         if (std::max(std::fabs(x), std::fabs(y)) < inside) continue;
         const int node = static_cast<int>(b) * block_nodes + k;
         const double across = y * cosine_ - x * sine_;
-        const double v = 0.5 * speed * ((across > 0) - (across < 0));
+        const double v = 0.5 * speed_ * ((across > 0) - (across < 0));
         grid.momentum_x[node] = grid.mass[node] * v * cosine_;
         grid.momentum_y[node] = grid.mass[node] * v * sine_;
         grid.force_x[node] = grid.force_y[node] = 0;
@@ -39,36 +44,100 @@ public:
   }
 
 private:
-  double cosine_, sine_;
+  double cosine_, sine_, width_, speed_;
 };
-} // namespace
+/// Part of the slip that becomes shear strain at the distance y (cells) from a band, times the cell.
+double band_shape(BandPlace place, double y)
+{
+  const auto spline = [](double z)
+  {
+    const double a = std::fabs(z);
+    return a < 0.5 ? 0.75 - a * a : a < 1.5 ? 0.5 * (1.5 - a) * (1.5 - a) : 0;
+  };
+  return place == BandPlace::within_cells ? spline(y) : 0.5 * (spline(y - 0.5) + spline(y + 0.5));
+}
 
-BandEnergy shear_band(VonMises law, double degrees, double spacing, double slip)
+void check(VonMises& law, double spacing)
 {
   if (const std::string problem = law.resolve(spacing); !problem.empty()) throw std::runtime_error(problem);
+}
+
+/// Table 1's soil, which softens over 0.2 m.
+VonMises soil(double band_width)
+{
+  VonMises law = scenes::von_mises(70e3, 39e3, NAN, 40e6, 0.35);
+  law.softening_displacement = 0.2;
+  law.band_width = band_width;
+  return law;
+}
+} // namespace
+
+BandEnergy shear_band(VonMises law, double degrees, BandPlace place, double spacing, double slip)
+{
+  check(law, spacing);
   const double angle = degrees * std::numbers::pi / 180, cosine = std::cos(angle), sine = std::sin(angle);
+  const double width = spacing * (cells + (place == BandPlace::within_cells ? 1 : 0));
   Domain domain = scenes::make_domain({{law, {0, 0, width, width}, spacing / 2}}, spacing);
-  domain.boundaries.push_back(std::make_unique<Grip>(cosine, sine));
+  domain.boundaries.push_back(std::make_unique<Grip>(cosine, sine, width, speed * spacing));
   sort_particles(domain);
   const double dt = 0.5 * spacing / law.pressure_speed();
-  const int steps = static_cast<int>(std::lround(slip / speed / dt));
-  scenes::run(domain, steps, dt);
+  scenes::run(domain, static_cast<int>(std::lround(slip / (speed * spacing) / dt)), dt);
 
-  const double length = 0.5 * width;
-  double dissipated = 0;
+  const double length = 0.5 * cells * spacing;
+  BandEnergy result{};
   const Particles& p = domain.particles;
   for (int k = 0; k < p.size(); ++k)
   {
     const double x = p.reference_x[k] - 0.5 * width, y = p.reference_y[k] - 0.5 * width;
     if (std::fabs(x * cosine + y * sine) > 0.5 * length) continue;
-    dissipated += domain.materials[0].dissipated(k) * p.mass[k] / law.density;
+    const double strain = domain.materials[0].state[0][k], part = p.mass[k] / law.density / length;
+    result.slip += part * std::sqrt(3.0) * strain;
+    result.softening += part * (domain.materials[0].dissipated(k) - law.residual * strain);
   }
-  BandEnergy result{steps * dt * speed, dissipated / length, 0, 0};
-  const double root = std::sqrt(3.0), top = law.peak / root, bottom = law.residual / root;
-  // The elastic shear left in the box, across its width.
-  const double elastic = bottom / law.shear_modulus() * (width - 2 * rim * spacing);
-  result.softening = result.dissipated - bottom * (result.slip - elastic);
-  result.expected = 0.5 * (top - bottom) * law.softening_displacement;
   return result;
+}
+
+double softening_energy(const VonMises& law)
+{
+  return 0.5 * (law.peak - law.residual) / std::sqrt(3.0) * law.softening_displacement;
+}
+
+double spline_band_energy(VonMises law, BandPlace place, double spacing, double slip)
+{
+  check(law, spacing);
+  double sum = 0;
+  for (double y = -1.75; y < 2; y += 0.5)
+  {
+    const double strain = slip / (std::sqrt(3.0) * spacing) * band_shape(place, y);
+    const double left = 1 - std::min(1.0, strain / law.softening_strain); // of the softening
+    sum += 0.5 * spacing * 0.5 * (law.peak - law.residual) * law.softening_strain * (1 - left * left);
+  }
+  return sum;
+}
+
+Findings run_shear_band(const std::filesystem::path&, double h)
+{
+  constexpr auto within = BandPlace::within_cells, on = BandPlace::on_nodes;
+  Findings found;
+  const auto closed_form = [&](const std::string& name, BandPlace place)
+  {
+    const BandEnergy band = shear_band(soil(NAN), 0, place, h, slip);
+    found.errors[name] = std::fabs(band.softening / spline_band_energy(soil(NAN), place, h, band.slip) - 1);
+    return band.softening / softening_energy(soil(NAN));
+  };
+  const double as_set = closed_form("within cells", within), as_set_on = closed_form("on nodes", on);
+  const auto excess = [&](double degrees, BandPlace place, double band_width)
+  {
+    const VonMises law = soil(band_width);
+    return shear_band(law, degrees, place, h, slip).softening / softening_energy(law) - 1;
+  };
+  found.errors["1.45 h, 0 degrees"] = std::max(as_set, as_set_on) - 1;
+  found.errors["1.45 h, 22.5 degrees"] = std::fabs(excess(22.5, on, NAN));
+  found.errors["1.45 h, 45 degrees"] = std::fabs(excess(45, on, NAN));
+  found.errors["3 h, 0 degrees"] =
+      std::max(std::fabs(excess(0, within, 3 * h)), std::fabs(excess(0, on, 3 * h)));
+  found.errors["3 h, 22.5 degrees"] = std::fabs(excess(22.5, on, 3 * h));
+  found.errors["3 h, 45 degrees"] = std::fabs(excess(45, on, 3 * h));
+  return found;
 }
 } // namespace mpm::verification

@@ -4,18 +4,31 @@
 
 namespace mpm::verification
 {
+/// Where a shear band runs.
+enum class BandPlace
+{
+  within_cells, ///< along the middle of a row of cells
+  on_nodes,     ///< along a row of nodes
+};
+
 /// What a softening band in a shear box dissipates, per m2 of band.
 struct BandEnergy
 {
-  double slip;       ///< imposed, m
-  double dissipated; ///< J/m2, measured over the middle half of the band
-  double softening;  ///< of it, what is above the residual strength's: dissipated - tau_r (slip - elastic
-                     ///< slip), J/m2
-  double expected;   ///< of that, (tau_p - tau_r) delta_r / 2, J/m2
+  double slip;      ///< plastic, m
+  double softening; ///< dissipated above the residual strength, in the middle of the band, J/m2
 };
 
-/// A square box of the law, 12 m wide, whose rim moves as two rigid halves that slide past each other along a
-/// line through the middle, inclined to the grid by `degrees`. The law's softening is by displacement.
-/// Plane-strain shear strengths are q / sqrt(3).
-BandEnergy shear_band(VonMises law, double degrees, double spacing, double slip);
+/// A square box of the law, 24 cells wide, whose rim moves as two rigid halves that slide past each other by
+/// `slip` (m) along a line through the middle, inclined to the grid by `degrees`. The law's softening is by
+/// displacement.
+BandEnergy shear_band(VonMises law, double degrees, BandPlace place, double spacing, double slip);
+
+/// (tau_p - tau_r) delta_r / 2 in J/m2, tau = q / sqrt(3) in plane strain: what the softening displacement
+/// stands for.
+double softening_energy(const VonMises& law);
+
+/// The same band in closed form, in J/m2: velocity jumps from one row of nodes to the next (within cells) or
+/// in equal parts over two (on nodes), so that the shear strain follows the cubic spline's derivative, a
+/// quadratic spline, or the mean of two of them, and every row of particles, two a cell, softens by its own.
+double spline_band_energy(VonMises law, BandPlace place, double spacing, double slip);
 } // namespace mpm::verification

@@ -1,8 +1,7 @@
 #include "test/verification/cases.hpp"
+#include "test/verification/strength_reduction.hpp"
 
 #include "io/units.hpp"
-#include "solver/mpm/step.hpp"
-#include "solver/stages/model.hpp"
 
 #include <cmath>
 
@@ -10,78 +9,31 @@ namespace mpm::verification
 {
 namespace
 {
-constexpr double height = 5;       // m
-constexpr double elastic_time = 3; // s: gravity grows over a half of it, elastic
-constexpr double plastic_time = 6; // s, after which the cut must have come to rest or be on its way
-constexpr double gone = 0.02;      // of the height: five times what yielding alone moves a cut that stands
-constexpr double exact = 3.8;      // middle of the bounds of limit analysis
+constexpr double height = 5;  // m
+constexpr double exact = 3.8; // middle of the bounds of limit analysis
 
-void run(Domain& domain, double gravity, double ramp, double duration, double dt)
+/// rho g H / s_u at failure.
+Failure stability_number(const std::filesystem::path& folder, double spacing, const std::string& averaged)
 {
-  for (long k = 0; k * dt < duration; ++k)
+  const Case scene = load_case(folder / "case.yaml", {"grid.spacing=" + number_text(spacing) + " m",
+                                                      "grid.volume_average=" + averaged});
+  const auto weaken = [&](Domain& domain, double number)
   {
-    const double s = ramp > 0 ? std::min(1.0, k * dt / ramp) : 1;
-    domain.gravity_y = -gravity * s * s * s * (10 + s * (6 * s - 15));
-    domain.time = k * dt;
-    step(domain, dt);
-  }
-}
-
-/// The cut at rest under gravity while it is elastic; strengths are tried from there.
-struct Cut
-{
-  Model model;
-  Particles settled;
-  double gravity, dt;
-};
-
-Cut settle(const Case& scene)
-{
-  Cut cut{make_model(scene), {}, scene.statics.gravity, 0};
-  add_static_boundaries(cut.model, scene);
-  Domain& domain = *cut.model.main;
-  cut.dt = scene.safety * scene.grid.spacing / greatest_wave_speed(domain);
-  domain.plastic = false;
-  run(domain, cut.gravity, 0.5 * elastic_time, elastic_time, cut.dt);
-  domain.plastic = true;
-  cut.settled = domain.particles;
-  return cut;
-}
-
-/// Greatest displacement from the elastic state, over the height, of clay of shear strength rho g H / number.
-double displacement(Cut& cut, double number)
-{
-  Domain& domain = *cut.model.main;
-  auto& clay = std::get<VonMises>(domain.materials[0].law);
-  clay.peak = clay.residual = std::sqrt(3.0) * clay.density * cut.gravity * height / number;
-  domain.particles = cut.settled;
-  domain.materials[0].state[0].assign(cut.settled.size(), 0.0);
-  sort_particles(domain);
-  const std::vector<int> before = domain.place;
-  const Particles start = domain.particles;
-  run(domain, cut.gravity, 0, plastic_time, cut.dt);
-  const Particles& p = domain.particles;
-  double greatest = 0;
-  for (std::size_t id = 0; id < before.size(); ++id)
-    greatest = std::max(greatest, std::hypot(p.x[domain.place[id]] - start.x[before[id]],
-                                             p.y[domain.place[id]] - start.y[before[id]]));
-  return greatest / height;
+    auto& clay = std::get<VonMises>(domain.materials[0].law);
+    clay.peak = clay.residual = std::sqrt(3.0) * clay.density * scene.statics.gravity * height / number;
+  };
+  Failure found = find_failure(scene, {3.5, 4.5, 0.04, height, 0.005, 2, weaken});
+  found.curve.name = "displacement, volume change: " + averaged;
+  found.curve.x_label = "rho g H / s_u";
+  return found;
 }
 } // namespace
 
 Findings run_vertical_cut(const std::filesystem::path& folder, double spacing)
 {
-  Cut cut = settle(load_case(folder / "case.yaml", {"grid.spacing=" + number_text(spacing) + " m"}));
-  Curve curve{"displacement", "rho g H / s_u", "displacement / H", {}, {}, {}};
-  double stands = 3, falls = 5;
-  while (falls - stands > 0.07) // 2 % of the answer
-  {
-    const double number = 0.5 * (stands + falls), moved = displacement(cut, number);
-    curve.x.push_back(number);
-    curve.model.push_back(moved);
-    curve.reference.push_back(gone);
-    (moved < gone ? stands : falls) = number;
-  }
-  return {{{"number", std::fabs(0.5 * (stands + falls) / exact - 1)}}, {curve}};
+  const Failure each = stability_number(folder, spacing, "none"),
+                cell = stability_number(folder, spacing, "cell");
+  return {{{"number", std::fabs(each.at / exact - 1)}, {"number, averaged", std::fabs(cell.at / exact - 1)}},
+          {each.curve, cell.curve}};
 }
 } // namespace mpm::verification

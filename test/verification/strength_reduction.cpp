@@ -1,0 +1,85 @@
+#include "test/verification/strength_reduction.hpp"
+
+#include "solver/mpm/step.hpp"
+#include "solver/stages/model.hpp"
+
+#include <cmath>
+
+namespace mpm::verification
+{
+namespace
+{
+constexpr double elastic_time = 1.5; // s: gravity grows over a half of it, elastic
+
+void run(Domain& domain, double gravity, double ramp, double duration, double dt)
+{
+  for (long k = 0; k * dt < duration; ++k)
+  {
+    const double s = ramp > 0 ? std::min(1.0, k * dt / ramp) : 1;
+    domain.gravity_y = -gravity * s * s * s * (10 + s * (6 * s - 15));
+    domain.time = k * dt;
+    step(domain, dt);
+  }
+}
+
+/// The ground at rest under gravity while it is elastic; strengths are tried from there.
+struct Settled
+{
+  Model model;
+  Particles particles;
+  double gravity, dt;
+};
+
+Settled settle(const Case& scene)
+{
+  Settled ground{make_model(scene), {}, scene.statics.gravity, 0};
+  add_static_boundaries(ground.model, scene);
+  Domain& domain = *ground.model.main;
+  ground.dt = scene.safety * scene.grid.spacing / greatest_wave_speed(domain);
+  domain.plastic = false;
+  run(domain, ground.gravity, 0.5 * elastic_time, elastic_time, ground.dt);
+  domain.plastic = true;
+  domain.damping = 0;
+  ground.particles = domain.particles;
+  return ground;
+}
+
+/// Greatest displacement from the elastic state in m, of ground that has been given its strength.
+double displacement(Settled& ground, double duration)
+{
+  Domain& domain = *ground.model.main;
+  domain.particles = ground.particles;
+  for (Material& material : domain.materials)
+    for (auto& state : material.state) std::fill(state.begin(), state.end(), 0.0);
+  sort_particles(domain);
+  const std::vector<int> before = domain.place;
+  const Particles start = domain.particles;
+  run(domain, ground.gravity, 0, duration, ground.dt);
+  const Particles& p = domain.particles;
+  double greatest = 0;
+  for (std::size_t id = 0; id < before.size(); ++id)
+    greatest = std::max(greatest, std::hypot(p.x[domain.place[id]] - start.x[before[id]],
+                                             p.y[domain.place[id]] - start.y[before[id]]));
+  return greatest;
+}
+} // namespace
+
+Failure find_failure(const Case& scene, const StrengthReduction& reduction)
+{
+  Settled ground = settle(scene);
+  Failure found{{"displacement", "trial", "displacement / height", {}, {}, {}}, 0};
+  double stands = reduction.stands, falls = reduction.falls;
+  while (falls - stands > reduction.tolerance)
+  {
+    const double trial = 0.5 * (stands + falls);
+    reduction.weaken(*ground.model.main, trial);
+    const double moved = displacement(ground, reduction.duration) / reduction.height;
+    found.curve.x.push_back(trial);
+    found.curve.model.push_back(moved);
+    found.curve.reference.push_back(reduction.gone);
+    (moved < reduction.gone ? stands : falls) = trial;
+  }
+  found.at = 0.5 * (stands + falls);
+  return found;
+}
+} // namespace mpm::verification
