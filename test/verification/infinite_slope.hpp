@@ -10,6 +10,7 @@ struct InfiniteSlope
 {
   SlipWeakening law;         ///< of the zone
   double spacing = 1;        ///< m
+  double rock_cells = 4;     ///< thickness of the rock below; a whole number ends it on nodes
   int zone_cells = 3;        ///< thickness of the zone
   double pulse = 0.5 * 9.81; ///< peak acceleration of the rock, m/s2
   double duration = 3;       ///< s
