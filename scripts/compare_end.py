@@ -1,9 +1,10 @@
 """Shakes a slope twice under each record, to the end of the record and until the slide is self-driven, and compares.
 
-    scripts/compare-end CASE --from STATIC/final.h5 --out DIR --record FILE[,dt[,unit]] ... [-- options of mpm-seismic]
+    scripts/compare-end CASE --from STATIC/final.h5 --out DIR --record FILE[,dt[,unit]] ... [--end '12 s']
+                        [-- options of mpm-seismic]
 
-All runs start from one static state and go to DIR/RECORD-never and DIR/RECORD-self_driven; repeated, the command goes on
-where it was interrupted. The comparison is DIR/compare-end.png and, in numbers, DIR/compare-end.json.
+All runs start from one static state and go to DIR/RECORD-never and DIR/RECORD-self_driven, or DIR/RECORD-12s with an end
+of one's own choice; repeated, the command goes on where it was interrupted. The comparison is DIR/compare-end.png and, in numbers, DIR/compare-end.json.
 """
 import argparse
 import json
@@ -23,7 +24,7 @@ from plot_histories import read_outline
 from plot_page import measures
 
 PROGRAM = Path(__file__).resolve().parent.parent / "build" / "mpm-seismic"
-ENDS = {"self_driven": "motion until self-driven", "never": "whole motion"}
+WHOLE = "never"
 
 
 def parse_arguments(given):
@@ -36,16 +37,23 @@ def parse_arguments(given):
     parser.add_argument("--out", type=Path, required=True)
     parser.add_argument("--record", action="append", required=True, metavar="FILE[,dt[,unit]]",
                         help="dt in s and unit of a record that does not tell them; repeatable")
+    parser.add_argument("--end", default="self_driven", help="seismic.motion.end of the shorter run; default self_driven")
     parser.add_argument("--program", type=Path, default=PROGRAM, help="default: that of the build")
     arguments = parser.parse_args(given[:cut])
     arguments.more = given[cut + 1:]
     return arguments
 
 
+def ends_of(arguments):
+    """The two ends of the motion, and what the pictures call them."""
+    until = "self-driven" if arguments.end == "self_driven" else arguments.end
+    return {arguments.end: f"motion until {until}", WHOLE: "whole motion"}
+
+
 def shake(arguments, record, end):
     """One run; returns its folder. Ends the program as mpm-seismic does when that fails."""
     path, *told = record.split(",")
-    folder = arguments.out / f"{Path(path).stem}-{end}"
+    folder = arguments.out / f"{Path(path).stem}-{end.replace(' ', '')}"
     command = [arguments.program, arguments.case, "--from", arguments.static, "--out", folder, "--motion", path,
                "--set", f"seismic.motion.end={end}", *arguments.more]
     for option, value in zip(("--record-dt", "--record-unit"), told):
@@ -77,15 +85,15 @@ def draw_section(axis, folder, norm):
     axis.set_ylim(top=max(extent[3], np.nanmax(start) + 2.0))
 
 
-def draw_histories(axes, folders):
-    """Moved area (m2) and displacement (m) of its centre of mass, both ends."""
+def draw_histories(axes, folders, ends):
+    """Moved area (m2) and displacement (m) of its centre of mass, both ends (and what they are called)."""
     for colour, (end, folder) in zip(("C0", "C3"), folders.items()):
         with open_history(folder) as file:
             slide = group_of(file, "slide")
             time, area = array(slide, "time"), array(slide, "moved_area")
             shift = np.linalg.norm(array(slide, "centre_of_mass_displacement"), axis=1)
         for axis, values, label in zip(axes, (area, shift), ("moved area (m²)", "its displacement (m)")):
-            axis.plot(time, values, colour, lw=1.0, label=ENDS[end])
+            axis.plot(time, values, colour, lw=1.0, label=ends[end])
             axis.set_ylabel(label)
             axis.grid(alpha=0.3)
         ended = read_summary(folder).get("motion_ended")
@@ -97,18 +105,18 @@ def draw_histories(axes, folders):
         axis.set_xlabel("time (s)")
 
 
-def draw(runs, out):
+def draw(runs, ends, out):
     """compare-end.png: sections side by side as in the paper's figure 6, histories below, record by record."""
     norm = Normalize(0.0, plot_sections.MOST_STRAIN)
     figure = plt.figure(figsize=(1.7 * WIDTH, 5.6 * len(runs) + 0.6), layout="constrained")
     for part, folders in zip(np.atleast_1d(figure.subfigures(len(runs), 1)), runs.values()):
         axes = part.subplots(2, 2, height_ratios=(1.2, 1.0))
-        for axis, end in zip(axes[0], ENDS):
+        for axis, end in zip(axes[0], ends):
             draw_section(axis, folders[end], norm)
         part.colorbar(ScalarMappable(norm, "inferno_r"), ax=axes[0], label="plastic strain", extend="max",
                       fraction=0.02, pad=0.01)
-        draw_histories(axes[1], {end: folders[end] for end in ENDS})
-    save(figure, out / "compare-end.png", "The motion ended when the slide is self-driven, and not (dotted: its end)")
+        draw_histories(axes[1], folders, ends)
+    save(figure, out / "compare-end.png", "The motion ended early, and not (dotted: its end)")
 
 
 def main():
@@ -117,16 +125,17 @@ def main():
     if not arguments.program.exists():
         print(f"compare-end: {arguments.program} is missing; build first (scripts/run)", file=sys.stderr)
         return 66
-    runs = {Path(record.split(",")[0]).stem: {end: shake(arguments, record, end) for end in ENDS}
+    ends = ends_of(arguments)
+    runs = {Path(record.split(",")[0]).stem: {end: shake(arguments, record, end) for end in ends}
             for record in arguments.record}
     numbers = {}
     for name, folders in runs.items():
         summaries = {end: read_summary(folder) for end, folder in folders.items()}
         numbers[name] = {end: {"motion_ended": s["motion_ended"], **s["slide"]} for end, s in summaries.items()}
         for end, summary in summaries.items():
-            print(f"{name}, {ENDS[end]}: " + "; ".join(f"{what} {words}" for what, words in measures(summary)))
+            print(f"{name}, {ends[end]}: " + "; ".join(f"{what} {words}" for what, words in measures(summary)))
     (arguments.out / "compare-end.json").write_text(json.dumps(numbers, indent=1) + "\n")
-    draw(runs, arguments.out)
+    draw(runs, ends, arguments.out)
     return 0
 
 

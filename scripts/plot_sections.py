@@ -10,6 +10,7 @@ from plot_common import WIDTH, Missing, array, frame_times, save
 
 PIXELS = 1400  # across a section
 MOST_STRAIN = 0.3  # top of the colour scale of plastic strain
+MOST_LOOSE = 2.0  # side of the square that a particle is drawn as, over the median
 
 
 def read_particles(path, *fields):
@@ -19,7 +20,9 @@ def read_particles(path, *fields):
         for field in fields:
             particles[field] = array(file, f"particles/{field}", f"VTKHDF/PointData/{field}")
         if "particles/volume" in file:
-            particles["size"] = np.sqrt(file["particles/volume"][...])
+            size = np.sqrt(file["particles/volume"][...])
+            # Debris that has come loose spreads in flight; it is still but a particle of debris.
+            particles["size"] = np.minimum(size, MOST_LOOSE * np.median(size))
         if "particles/material" in file:
             particles["material"] = file["particles/material"][...]
     return particles

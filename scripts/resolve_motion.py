@@ -1,9 +1,10 @@
-"""Turns the east and north components of a record into a direction: azimuth in degrees, clockwise from north.
+"""Turns the east and north components of a record into a direction: azimuth in degrees, clockwise from north. Cuts it.
 
     scripts/resolve-motion EAST.AT2 NORTH.AT2 --azimuth 215 --out records/CHY080-215.AT2
+    scripts/resolve-motion VERTICAL.AT2 --from 26 --until 90 --out records/CHY080-V-from26.AT2
 
 Reads PEER's .AT2, .VT2 and .DT2 files (a header with NPTS and DT, then the values) and writes one of the same kind:
-sin(azimuth) east + cos(azimuth) north.
+sin(azimuth) east + cos(azimuth) north, or the one component as it is; of it what lies between two times in s.
 """
 
 import argparse
@@ -45,6 +46,15 @@ def resolve(east, north, azimuth):
     return math.sin(angle) * east + math.cos(angle) * north
 
 
+def cut(values, step, begin, end):
+    """The values from time begin on and before time end (s); None: to the end."""
+    first = round(begin / step)
+    last = values.size if end is None else round(end / step)
+    if not 0 <= first < last <= values.size:
+        raise BadRecord(f"nothing lies from {begin:g} s to {last * step:g} s: the record is {values.size * step:g} s long")
+    return values[first:last]
+
+
 def write(path, header, values, step):
     temporary = path + ".part"
     with open(temporary, "w", encoding="ascii") as file:
@@ -54,23 +64,43 @@ def write(path, header, values, step):
     os.replace(temporary, path)
 
 
-def main():
+def arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("east")
-    parser.add_argument("north")
-    parser.add_argument("--azimuth", type=float, required=True, help="degrees, clockwise from north")
+    parser.add_argument("east", metavar="EAST", help="or the only component")
+    parser.add_argument("north", metavar="NORTH", nargs="?")
+    parser.add_argument("--azimuth", type=float, help="degrees, clockwise from north; with two components")
+    parser.add_argument("--from", dest="begin", type=float, default=0.0, help="s of the record; default 0")
+    parser.add_argument("--until", dest="end", type=float, help="s of the record; default its end")
     parser.add_argument("--out", required=True)
     options = parser.parse_args()
-    try:
-        header, east, step = read(options.east)
+    if (options.north is None) != (options.azimuth is None):
+        parser.error("two components go with --azimuth, one component goes without")
+    return options
+
+
+def make(options):
+    """Header, values and time step (s) of the new record."""
+    header, values, step = read(options.east)
+    note = os.path.basename(options.east)
+    if options.north:
         _, north, other_step = read(options.north)
-        if step != other_step or east.size != north.size:
-            raise BadRecord(f"the records differ: {east.size} values of {step} s and {north.size} of {other_step} s")
-        values = resolve(east, north, options.azimuth)
-        note = f"{os.path.basename(options.east)} and {os.path.basename(options.north)}, azimuth {options.azimuth:g}"
-        # The last line before NPTS tells quantity and unit; the one before it is ours.
+        if step != other_step or values.size != north.size:
+            raise BadRecord(f"the records differ: {values.size} values of {step} s and {north.size} of {other_step} s")
+        values = resolve(values, north, options.azimuth)
+        note += f" and {os.path.basename(options.north)}, azimuth {options.azimuth:g}"
+    values = cut(values, step, options.begin, options.end)
+    if options.begin:
+        note += f", from {options.begin:g} s on"
+    # The last line before NPTS tells quantity and unit; the one before it is ours.
+    return header[:-2] + [note] + header[-1:], values, step
+
+
+def main():
+    options = arguments()
+    try:
+        header, values, step = make(options)
         os.makedirs(os.path.dirname(os.path.abspath(options.out)), exist_ok=True)
-        write(options.out, header[:-2] + [note] + header[-1:], values, step)
+        write(options.out, header, values, step)
     except (OSError, BadRecord) as error:
         print(f"resolve-motion: {error}", file=sys.stderr)
         return 65 if isinstance(error, BadRecord) else 66

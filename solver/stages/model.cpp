@@ -253,10 +253,17 @@ double greatest_wave_speed(const Domain& domain)
   double greatest = 0;
   for (std::size_t m = 0; m < domain.materials.size(); ++m)
   {
+    const Material& material = domain.materials[m];
+    const int begin = domain.material_begin[m];
     double lightest = std::numeric_limits<double>::infinity();
-    for (int k = domain.material_begin[m]; k < domain.material_begin[m + 1]; ++k)
-      lightest = std::min(lightest, domain.materials[m].mass_scale * p.mass[k] / p.volume[k]);
-    greatest = std::max(greatest, std::sqrt(domain.materials[m].elastic().p_modulus() / lightest));
+    for (int k = begin; k < domain.material_begin[m + 1]; ++k)
+    {
+      const double opening =
+          material.opening(k - begin); // costs an exponential only where ground is torn apart
+      const double closed = opening > 0 ? p.volume[k] * std::exp(-opening) : p.volume[k];
+      lightest = std::min(lightest, material.mass_scale * p.mass[k] / closed);
+    }
+    greatest = std::max(greatest, std::sqrt(material.elastic().p_modulus() / lightest));
   }
   return greatest;
 }

@@ -51,7 +51,8 @@ double side_stress_mismatch(const Model& model, const Case& scene, Edge edge);
 /// Advances columns, then the model, from `time` over `dt` s.
 void advance(Model& model, double time, double dt);
 
-/// Greatest pressure-wave speed of the scene as it is now (rho = m/V), m/s.
+/// Greatest pressure-wave speed of the scene as it is now, m/s: rho = m/V, V of what is torn apart being the
+/// volume that it has when it has closed, since it carries no stress before.
 double greatest_wave_speed(const Domain& domain);
 
 /// Makes inertial masses so large that pressure waves are as slow in every material as in the slowest one: a

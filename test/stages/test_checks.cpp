@@ -1,6 +1,7 @@
 // What a stage looks after while it goes.
 
 #include "solver/stages/session.hpp"
+#include "test/scenes.hpp"
 #include "test/stages/ground.hpp"
 
 #include <catch2/catch.hpp>
@@ -43,6 +44,32 @@ TEST_CASE("a step is halved when the ground has loosened so far that waves outru
   check_step(session, model, session.scene.safety, clock);
   CHECK(clock.dt == dt / 2);
   CHECK(clock.time() == time);
+}
+
+TEST_CASE("ground that is torn apart does not shorten the step", "[stages]")
+{
+  // A cloud of particles without friction or cohesion's hold, blown up to e times its volume: it carries
+  // nothing, and its waves are those of the ground that it will be when it has closed.
+  MohrCoulomb law;
+  law.density = 2000;
+  law.young = 1e9;
+  law.poisson = 0.3;
+  law.friction_peak = 0.5;
+  law.cohesion_peak = 0;
+  REQUIRE(law.resolve(1).empty());
+  Domain cloud = scenes::make_domain({{law, {0, 0, 4, 4}, 0.5}}, 1);
+  const double speed = law.pressure_speed(), dt = 0.2 / speed;
+  CHECK(greatest_wave_speed(cloud) == Approx(speed).epsilon(1e-12));
+  for (int k = 0; k < cloud.particles.size(); ++k)
+  {
+    cloud.particles.affine_xx[k] = cloud.particles.affine_yy[k] = 1 / (100 * dt);
+    cloud.particles.velocity_x[k] = (cloud.particles.x[k] - 2) / (100 * dt);
+    cloud.particles.velocity_y[k] = (cloud.particles.y[k] - 2) / (100 * dt);
+  }
+  for (int k = 0; k < 65; ++k) step(cloud, dt);
+  const Particles& p = cloud.particles;
+  CHECK(p.volume[0] * law.density / p.mass[0] > 2);                 // (1 + 0.65)^2 = 2.7
+  CHECK(greatest_wave_speed(cloud) == Approx(speed).epsilon(0.01)); // strains of third order in dt L
 }
 
 TEST_CASE("the stress of a side is compared with that of its column", "[stages]")

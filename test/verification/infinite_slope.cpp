@@ -10,7 +10,6 @@ namespace mpm::verification
 namespace
 {
 constexpr double g = 9.81, angle = 14 * std::numbers::pi / 180;
-constexpr double block = 20, rock = 4; // thickness in m, and in cells
 constexpr double period = 1, triggered = 0.1;
 
 /// Acceleration of the rock along the slope, positive downwards: one period of a sine, uphill first, so that
@@ -39,11 +38,12 @@ void stress_by_weight(Domain& domain, double top)
 
 Slide slide(const InfiniteSlope& slope)
 {
-  const double h = slope.spacing, zone = h * (rock + slope.zone_cells), top = zone + block;
+  const double h = slope.spacing, rock = h * slope.rock_cells, zone = rock + h * slope.zone_cells,
+               top = zone + slope.block;
   Elastic stiff = slope.law;
-  Domain domain = scenes::make_domain({{stiff, {0, 0, h, h * rock}, h / 2},
-                                       {slope.law, {0, h * rock, h, h * slope.zone_cells}, h / 2},
-                                       {stiff, {0, zone, h, block}, h / 2}},
+  Domain domain = scenes::make_domain({{stiff, {0, 0, h, rock}, h / 2},
+                                       {slope.law, {0, rock, h, h * slope.zone_cells}, h / 2},
+                                       {stiff, {0, zone, h, slope.block}, h / 2}},
                                       h);
   domain.grid.wrapped = true;
   domain.boundaries.push_back(std::make_unique<MirroredWall>(Wall{Direction::y, 0, 1, false}));

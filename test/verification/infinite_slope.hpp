@@ -4,12 +4,14 @@
 
 namespace mpm::verification
 {
-/// A block 20 m thick on a weak zone on rock, an infinite slope at 14 degrees, shaken along it: one pulse of
+/// A block on a weak zone on rock, an infinite slope at 14 degrees, shaken along it: one pulse of
 /// the rock's acceleration, down-slope end first.
 struct InfiniteSlope
 {
   SlipWeakening law;         ///< of the zone
   double spacing = 1;        ///< m
+  double block = 20;         ///< its thickness, m
+  double rock_cells = 4;     ///< thickness of the rock below; a whole number ends it on nodes
   int zone_cells = 3;        ///< thickness of the zone
   double pulse = 0.5 * 9.81; ///< peak acceleration of the rock, m/s2
   double duration = 3;       ///< s
