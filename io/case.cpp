@@ -34,6 +34,7 @@ GridSettings read_grid(Section grid)
   GridSettings settings;
   settings.spacing = grid.number("spacing", Dimension::length, Range::positive());
   settings.particles_per_cell = grid.integer_or(settings.particles_per_cell, "particles_per_cell", 1, 10);
+  settings.interfaces = static_cast<Interfaces>(grid.choice_or(0, "interfaces", {"sharp", "averaged"}));
   return settings;
 }
 

@@ -17,11 +17,19 @@
 
 namespace mpm
 {
+/// `grid.interfaces`: the elastic moduli of particles near an interface.
+enum class Interfaces
+{
+  sharp,
+  averaged ///< see average_interfaces
+};
+
 /// `grid`: cell size in m, particles per cell and direction.
 struct GridSettings
 {
   double spacing = NAN;
   int particles_per_cell = 3;
+  Interfaces interfaces = Interfaces::sharp;
 
   double particle_spacing() const { return spacing / particles_per_cell; } ///< m
 };
@@ -117,6 +125,13 @@ enum class FlipEnds
   never
 };
 
+/// `seismic.inertia`: the mass in the equation of motion.
+enum class Inertia
+{
+  lumped,
+  consistent ///< see correct_inertia
+};
+
 /// `seismic`. The kinds of base and sides rule the free-field columns of the static stage too.
 struct SeismicSettings
 {
@@ -126,6 +141,7 @@ struct SeismicSettings
   SideKind sides = SideKind::free_field;
   double flip_blend = 0; ///< share of FLIP in the velocity update
   FlipEnds flip_ends = FlipEnds::on_slide;
+  Inertia inertia = Inertia::lumped;
   MotionSettings motion;
 };
 

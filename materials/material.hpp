@@ -26,6 +26,7 @@ struct Material
   std::string name;
   Law law;
   std::vector<std::vector<double>> state;
+  int origin = -1; ///< of a mixture at an interface: place of the material that it belongs to; -1: it is none
 
   const Elastic& elastic() const
   {
