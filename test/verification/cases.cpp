@@ -7,27 +7,29 @@ namespace mpm::verification
 std::span<const LadderCase> ladder_cases()
 {
   static constexpr std::array cases{
-      LadderCase{"kernel", run_kernel},                 // V1
-      LadderCase{"transfer", run_transfer},             // V2
-      LadderCase{"mirrored_wall", run_mirrored_wall},   // V3
-      LadderCase{"manufactured", run_manufactured},     // V4
-      LadderCase{"vortex", run_vortex},                 // V5
-      LadderCase{"self_weight", run_self_weight},       // V6
-      LadderCase{"free_vibration", run_free_vibration}, // V7
-      LadderCase{"layer", run_site},                    // V8
-      LadderCase{"layer_courant", run_layer_courant},   // V8
-      LadderCase{"layer_flip", run_layer_flip},         // V8
-      LadderCase{"two_layers", run_site},               // V9
-      LadderCase{"layer_p", run_site},                  // V10
-      LadderCase{"uniform_column", run_uniform_column}, // V10, V11
-      LadderCase{"absorption", run_absorption},         // V12
-      LadderCase{"line_load", run_line_load},           // V13
-      LadderCase{"level_site", run_level_site},         // V14
-      LadderCase{"hill", run_hill},                     // V15
-      LadderCase{"strip_footing", run_strip_footing},   // V16
-      LadderCase{"vertical_cut", run_vertical_cut},     // V19
-      LadderCase{"sliding_block", run_sliding_block},   // V20
-      LadderCase{"dam_break", run_dam_break},           // V21
+      LadderCase{"kernel", run_kernel},                     // V1
+      LadderCase{"transfer", run_transfer},                 // V2
+      LadderCase{"mirrored_wall", run_mirrored_wall},       // V3
+      LadderCase{"manufactured", run_manufactured},         // V4
+      LadderCase{"vortex", run_vortex},                     // V5
+      LadderCase{"self_weight", run_self_weight},           // V6
+      LadderCase{"free_vibration", run_free_vibration},     // V7
+      LadderCase{"layer", run_site},                        // V8
+      LadderCase{"layer_courant", run_layer_courant},       // V8
+      LadderCase{"layer_flip", run_layer_flip},             // V8
+      LadderCase{"two_layers", run_site},                   // V9
+      LadderCase{"layer_consistent", run_layer_consistent}, // V8, V9
+      LadderCase{"layer_p", run_site},                      // V10
+      LadderCase{"uniform_column", run_uniform_column},     // V10, V11
+      LadderCase{"absorption", run_absorption},             // V12
+      LadderCase{"line_load", run_line_load},               // V13
+      LadderCase{"level_site", run_level_site},             // V14
+      LadderCase{"hill", run_hill},                         // V15
+      LadderCase{"hill_options", run_hill_options},         // V15
+      LadderCase{"strip_footing", run_strip_footing},       // V16
+      LadderCase{"vertical_cut", run_vertical_cut},         // V19
+      LadderCase{"sliding_block", run_sliding_block},       // V20
+      LadderCase{"dam_break", run_dam_break},               // V21
   };
   return cases;
 }

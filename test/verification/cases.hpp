@@ -20,12 +20,16 @@ Findings run_site(const std::filesystem::path& folder, double spacing);
 Findings run_layer_courant(const std::filesystem::path& folder, double courant);
 /// The layer at one spacing; the resolution is the share of FLIP.
 Findings run_layer_flip(const std::filesystem::path& folder, double share);
+/// The layer and the two layers with averaged interfaces and consistent inertia.
+Findings run_layer_consistent(const std::filesystem::path& folder, double spacing);
 /// Packets of P and S waves that meet the compliant base at an angle.
 Findings run_absorption(const std::filesystem::path& folder, double spacing);
 /// A load on the surface of a small box against one four times as large.
 Findings run_line_load(const std::filesystem::path& folder, double spacing);
 /// An elastic slope against finite elements.
 Findings run_hill(const std::filesystem::path& folder, double spacing);
+/// The same with the options that carry waves better.
+Findings run_hill_options(const std::filesystem::path& folder, double spacing);
 /// A rigid strip pressed into clay.
 Findings run_strip_footing(const std::filesystem::path& folder, double spacing);
 /// Clay of falling strength in a vertical cut.
