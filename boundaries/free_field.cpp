@@ -42,6 +42,13 @@ void FreeFieldColumn::note_motion(double dt)
     const int node = g.node(0, first_row + row);
     if (node < 0 || g.mass[node] <= 0) continue;
     const double vx = g.momentum_x[node] / g.mass[node], vy = g.momentum_y[node] / g.mass[node];
+    if (domain->consistent_inertia) // what the equation of motion says: the model corrects its own
+    {
+      const auto [ax, ay] = g.velocity_change(node);
+      velocity[row] = {vx + 0.5 * ax, vy + 0.5 * ay};
+      acceleration[row] = {ax / dt, ay / dt};
+      continue;
+    }
     velocity[row] = {0.5 * (vx + g.velocity_x[node]), 0.5 * (vy + g.velocity_y[node])};
     acceleration[row] = {(g.velocity_x[node] - vx) / dt, (g.velocity_y[node] - vy) / dt};
   }

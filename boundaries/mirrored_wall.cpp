@@ -45,6 +45,16 @@ void MirroredWall::share_nodes(Grid& grid) const
   for (const int node : on_wall_) grid.share[node] *= 0.5;
 }
 
+void MirroredWall::mirror_velocities(Domain& domain)
+{
+  Grid& g = domain.grid;
+  for (const auto& [inside, ghost] : pairs_)
+  {
+    g.velocity_x[ghost] = wall_.image_sign_x() * g.velocity_x[inside];
+    g.velocity_y[ghost] = wall_.image_sign_y() * g.velocity_y[inside];
+  }
+}
+
 void MirroredWall::constrain(Domain& domain)
 {
   Grid& g = domain.grid;

@@ -32,6 +32,7 @@ public:
   explicit MirroredWall(const Wall& wall) : wall_(wall) {}
   void bind(const Domain& domain) override;
   void constrain(Domain& domain) override;
+  void mirror_velocities(Domain& domain) override;
 
 private:
   void share_nodes(Grid& grid) const;

@@ -35,6 +35,7 @@ GridSettings read_grid(Section grid)
   settings.spacing = grid.number("spacing", Dimension::length, Range::positive());
   settings.particles_per_cell = grid.integer_or(settings.particles_per_cell, "particles_per_cell", 1, 10);
   settings.average_volume = grid.choice_or(0, "volume_average", {"none", "cell"}) == 1;
+  settings.interfaces = static_cast<Interfaces>(grid.choice_or(0, "interfaces", {"sharp", "averaged"}));
   return settings;
 }
 

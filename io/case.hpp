@@ -17,12 +17,20 @@
 
 namespace mpm
 {
+/// `grid.interfaces`: the elastic moduli of particles near an interface.
+enum class Interfaces
+{
+  sharp,
+  averaged ///< see average_interfaces
+};
+
 /// `grid`: cell size in m, particles per cell and direction.
 struct GridSettings
 {
   double spacing = NAN;
   int particles_per_cell = 3;
   bool average_volume = false; ///< volume changes of the cell, not of the particle
+  Interfaces interfaces = Interfaces::sharp;
 
   double particle_spacing() const { return spacing / particles_per_cell; } ///< m
 };
@@ -120,6 +128,13 @@ enum class FlipEnds
   never
 };
 
+/// `seismic.inertia`: the mass in the equation of motion.
+enum class Inertia
+{
+  lumped,
+  consistent ///< see correct_inertia
+};
+
 /// `seismic`. The kinds of base and sides rule the free-field columns of the static stage too.
 struct SeismicSettings
 {
@@ -129,6 +144,7 @@ struct SeismicSettings
   SideKind sides = SideKind::free_field;
   double flip_blend = 0; ///< share of FLIP in the velocity update
   FlipEnds flip_ends = FlipEnds::on_slide;
+  Inertia inertia = Inertia::lumped;
   MotionSettings motion;
 };
 

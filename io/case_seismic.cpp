@@ -131,6 +131,7 @@ SeismicSettings read_seismic(Section& root, const std::filesystem::path& folder,
   settings.flip_blend =
       section.number_or(0, "flip_blend", Dimension::none, {.lower = 0, .upper = 1, .upper_allowed = false});
   settings.flip_ends = static_cast<FlipEnds>(section.choice_or(0, "flip_ends", {"on_slide", "never"}));
+  settings.inertia = static_cast<Inertia>(section.choice_or(0, "inertia", {"lumped", "consistent"}));
   settings.motion = read_motion(section.optional_section("motion"), folder, problems);
   return settings;
 }

@@ -63,6 +63,7 @@ void save_materials(h5::Group group, const Domain& domain)
     const Material& material = domain.materials[m];
     h5::Group own = group.create_group(material.name);
     own.attribute("model", material.model());
+    own.attribute("material", material.origin < 0 ? material.name : domain.materials[material.origin].name);
     own.attribute("begin", std::int64_t(domain.material_begin[m]));
     own.attribute("end", std::int64_t(domain.material_begin[m + 1]));
     for (std::size_t k = 0; k < material.state.size(); ++k)

@@ -99,9 +99,9 @@ def ground_of(folder):
     size = x[1] - x[0]
     with h5py.File(path, "r") as file:
         position = array(file, "particles/reference")[:, :2]
-        names = list(file["materials"])
-        parts = [slice(int(file[f"materials/{n}"].attrs["begin"]), int(file[f"materials/{n}"].attrs["end"]))
-                 for n in names]
+        groups = [file[f"materials/{n}"].attrs for n in file["materials"]]
+        names = [a["material"].decode() if isinstance(a["material"], bytes) else a["material"] for a in groups]
+        parts = [slice(int(a["begin"]), int(a["end"])) for a in groups]
     bottom = position[:, 1].min() - 0.5 * size
     middles = bottom + size * (np.arange(int(np.ceil((np.nanmax(surface) - bottom) / size))) + 0.5)
     nearest = cKDTree(position).query(np.stack(np.meshgrid(x, middles, indexing="ij"), axis=-1))[1]

@@ -24,6 +24,8 @@ struct Boundary
   virtual void add_forces(Domain&, double /*dt*/) {}
   /// Last word before the equation of motion: mirrors nodes at a wall.
   virtual void constrain(Domain&) {}
+  /// After a correction of the velocities node by node: mirrors them at a wall again.
+  virtual void mirror_velocities(Domain&) {}
   /// After the equation of motion: adds to `now` what its own forces did to the ground in the step, with the
   /// nodes' mean velocity (Grid::middle_velocity), J per m.
   virtual void measure_work(const Domain&, double /*dt*/, Energies& /*now*/) const {}

@@ -1,7 +1,7 @@
 #pragma once
-// What the grid and the steps do to a plane wave: cubic B-splines, lumped mass, affine transfer, two or more
-// particles per cell and direction. All from the growth factor z of a mode of wave number k,
-// z^2 - (G + 1 - dt^2 w^2) z + G = 0 (METHODS section 7), for k h << 1.
+// What the grid and the steps do to a plane wave: cubic B-splines, lumped or consistent inertia, affine
+// transfer, two or more particles per cell and direction. All from the growth factor z of a mode of wave
+// number k, z^2 - (G + 1 - dt^2 w^2) z + G = 0 (METHODS section 7), for k h << 1.
 
 #include <cmath>
 #include <numbers>
@@ -14,6 +14,7 @@ struct Resolution
   double spacing;
   double dt;
   double flip_blend = 0;
+  bool consistent_inertia = false; ///< see correct_inertia
 };
 
 /// The affine transfer leaves G = 1 - a (k h)^4 of a mode's velocity each step.
@@ -25,12 +26,20 @@ inline double wave_number_cells(const Resolution& r, double speed, double freque
   return 2 * std::numbers::pi * frequency * r.spacing / speed;
 }
 
+/// Lag of consistent inertia over (k h)^4: 31/720 of w = c k sinc^4(k h / 2) sqrt(1 + 2/3 (1 - cos k h)),
+/// less what the transfer's loss hastens the step, (1 - G) / 4.
+inline double consistent_lag(const Resolution& r)
+{
+  return 31.0 / 720 - 0.25 * (1 - r.flip_blend) * transfer_loss;
+}
+
 /// Share by which the wave is too slow: (k h)^2 (1/6 - C^2/24), C = dt speed / h. The first part is the
-/// smoothing of the lumped mass and force, w = c k sinc^4(k h / 2); the second the lead of symplectic Euler.
+/// smoothing of the lumped mass and force, w = c k sinc^4(k h / 2), and 31/720 (k h)^4 where inertia is
+/// consistent; the second is the lead of symplectic Euler.
 inline double phase_error(const Resolution& r, double speed, double frequency)
 {
   const double kh = wave_number_cells(r, speed, frequency), courant = r.dt * speed / r.spacing;
-  return kh * kh * (1.0 / 6 - courant * courant / 24);
+  return kh * kh * ((r.consistent_inertia ? consistent_lag(r) * kh * kh : 1.0 / 6) - courant * courant / 24);
 }
 
 /// Damping ratio that the transfer gives the wave: a (k h)^3 / (2 C), each step the same loss, so that half
@@ -41,9 +50,16 @@ inline double numerical_damping(const Resolution& r, double speed, double freque
   return (1 - r.flip_blend) * transfer_loss * kh * kh * kh / (2 * courant);
 }
 
-/// Frequency in Hz up to which the phase error is at most `share`.
+/// Frequency in Hz up to which the phase error is at most `share`, at Courant numbers below 1 and shares
+/// above 0.01.
 inline double phase_limit(const Resolution& r, double speed, double share)
 {
+  if (r.consistent_inertia)
+  {
+    const double courant = r.dt * speed / r.spacing, lead = courant * courant / 24, lag = consistent_lag(r);
+    const double square = (lead + std::sqrt(lead * lead + 4 * lag * share)) / (2 * lag);
+    return std::sqrt(square) / wave_number_cells(r, speed, 1);
+  }
   return std::sqrt(share / phase_error(r, speed, 1));
 }
 

@@ -69,10 +69,11 @@ struct Domain
   double gravity_x = 0, gravity_y = 0; ///< body acceleration of now, m/s2
   double damping = 0;                  ///< local damping beta, eq. (1)
   double flip_blend = 0;               ///< share of FLIP in the particles' velocities, METHODS section 1
-  bool average_volume = false; ///< volume changes averaged over the cell, see average_volume_changes()
-  bool plastic = true;         ///< whether the laws may yield
-  bool balance_wanted = false; ///< whether the step measures `balance`
-  double time = 0;             ///< at the start of the step, s
+  bool average_volume = false;     ///< volume changes averaged over the cell, see average_volume_changes()
+  bool consistent_inertia = false; ///< whether the step corrects the lumped mass, see correct_inertia
+  bool plastic = true;             ///< whether the laws may yield
+  bool balance_wanted = false;     ///< whether the step measures `balance`
+  double time = 0;                 ///< at the start of the step, s
 
   std::vector<Home> homes;                 ///< sorted by block
   std::array<std::vector<int>, 4> colours; ///< homes that share no node within a colour

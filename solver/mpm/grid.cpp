@@ -37,6 +37,7 @@ void Grid::build(std::vector<BlockIndex> wanted, bool with_dashpots)
     field->assign(count, 0.0);
   for (auto* field : {&dashpot_x, &dashpot_y}) field->assign(with_dashpots ? count : 0, 0.0);
   share.clear();
+  for (auto* field : {&change_x, &change_y, &linked_mass}) field->clear();
 }
 
 void Grid::clear(int block)

@@ -49,6 +49,9 @@ struct Grid
   std::vector<double> dashpot_x,
       dashpot_y; ///< viscous coefficients in N s/m; empty without absorbing boundaries
   std::vector<double> velocity_x, velocity_y; ///< updated velocity v*
+  std::vector<double> change_x,
+      change_y;                    ///< v* - P/m of the lumped mass, see correct_inertia; empty without it
+  std::vector<double> linked_mass; ///< mass of nodes that take part in that, kg per m
   /// Part of a node that belongs to the ground, for sums over nodes: 0 for images beyond a mirrored wall, 1/2
   /// on it, 1/4 where two walls meet; empty without walls.
   std::vector<double> share;
@@ -61,6 +64,14 @@ struct Grid
     if (mass[node] <= smallest_mass) return {};
     return {0.5 * (momentum_x[node] / mass[node] + velocity_x[node]),
             0.5 * (momentum_y[node] / mass[node] + velocity_y[node])};
+  }
+  /// What the forces on a node changed its velocity by in the step, m/s; zero where it stays at rest.
+  std::array<double, 2> velocity_change(int node) const
+  {
+    if (mass[node] <= smallest_mass) return {};
+    if (!change_x.empty()) return {change_x[node], change_y[node]};
+    return {velocity_x[node] - momentum_x[node] / mass[node],
+            velocity_y[node] - momentum_y[node] / mass[node]};
   }
   int nodes() const { return static_cast<int>(blocks.size()) * block_nodes; }
   /// Place of a block in `blocks`, -1 if it does not exist.

@@ -62,7 +62,7 @@ struct Energies
 struct StepWork
 {
   double dt = 0;
-  double work = 0;                  ///< of all forces: change of the grid's kinetic energy, J per m
+  double work = 0;                  ///< of all forces: change of the grid's kinetic energy by them, J per m
   double damping = 0;               ///< taken by the local damping, J per m
   std::array<double, 2> momentum{}; ///< mean of the step's start and end, N s per m
 };

@@ -1,3 +1,4 @@
+#include "solver/mpm/inertia.hpp"
 #include "solver/mpm/parallel.hpp"
 #include "solver/mpm/step.hpp"
 
@@ -44,15 +45,15 @@ struct Lanes
 
 /// One component of one node, of which `part` is counted.
 inline void add_work(Lanes& sum, int lane, const Parameters& a, double part, double m, double momentum,
-                     double f, double v)
+                     double f, double v, double impulse)
 {
-  const double before = momentum / m, middle = 0.5 * (before + v), impulse = part * (m * v - momentum);
-  sum.work[lane] += impulse * middle;
+  const double before = momentum / m, middle = 0.5 * (before + v);
+  sum.work[lane] += part * impulse * middle;
   sum.damping[lane] += part * a.dt * a.damping * std::fabs(f) * ((before > 0) - (before < 0)) * middle;
 }
 
 /// What the forces did to the nodes of a block in the step (StepWork).
-StepWork work_of_block(const Grid& g, int block, const Parameters& a)
+StepWork work_of_block(const Grid& g, int block, const Parameters& a, bool corrected)
 {
   static constexpr auto whole = []
   {
@@ -69,8 +70,9 @@ StepWork work_of_block(const Grid& g, int block, const Parameters& a)
       const bool active = g.mass[k] > a.smallest_mass;
       const double part = active ? share[place] : 0, m = active ? g.mass[k] : 1;
       const double px = g.momentum_x[k], py = g.momentum_y[k], vx = g.velocity_x[k], vy = g.velocity_y[k];
-      add_work(sum, lane, a, part, m, px, g.force_x[k], vx);
-      add_work(sum, lane, a, part, m, py, g.force_y[k], vy);
+      // What neighbours exchange is no work of a force: the transfer between particles and grid holds it.
+      add_work(sum, lane, a, part, m, px, g.force_x[k], vx, corrected ? m * g.change_x[k] : m * vx - px);
+      add_work(sum, lane, a, part, m, py, g.force_y[k], vy, corrected ? m * g.change_y[k] : m * vy - py);
       sum.momentum_x[lane] += 0.5 * part * (px + m * vx);
       sum.momentum_y[lane] += 0.5 * part * (py + m * vy);
     }
@@ -142,8 +144,13 @@ void solve_grid(Domain& domain, double dt)
                          solve_block<false>(grid, k, a);
                        else
                          solve_block<true>(grid, k, a);
-                       works[k] = work_of_block(grid, k, a);
+                       if (!domain.consistent_inertia) works[k] = work_of_block(grid, k, a, false);
                      });
+  if (domain.consistent_inertia)
+  {
+    correct_inertia(domain, dt);
+    parallel::for_each(blocks, [&](int k) { works[k] = work_of_block(grid, k, a, true); });
+  }
   domain.ledger.step = sum_of(works, dt);
   if (domain.balance_wanted) domain.balance = balance_of(domain, cell_mass);
 }

@@ -43,7 +43,9 @@ void report_share(Session& session, const Material& material, const Kind& kind, 
 
 void report_wave_fidelity(Session& session, double dt, const IncomingWave* wave)
 {
-  const Resolution resolution{session.scene.grid.spacing, dt, wave ? session.scene.seismic.flip_blend : 0};
+  const SeismicSettings& seismic = session.scene.seismic;
+  const Resolution resolution{session.scene.grid.spacing, dt, wave ? seismic.flip_blend : 0,
+                              wave && seismic.inertia == Inertia::consistent};
   const GridSettings& grid = session.scene.grid;
   nlohmann::json& facts = session.facts["resolution"];
   facts = {{"spacing", grid.spacing}, {"particles_per_cell", grid.particles_per_cell}};

@@ -2,7 +2,7 @@
 
 #include "solver/mpm/parallel.hpp"
 #include "solver/mpm/step.hpp"
-#include "solver/stages/fill.hpp"
+#include "solver/stages/interfaces.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,13 +12,13 @@ namespace mpm
 namespace
 {
 /// Puts seeds, grouped by material, into a domain whose grid is set up.
-void plant(Domain& domain, const Case& scene, std::vector<Seed> seeds)
+void plant(Domain& domain, const std::vector<Material>& materials, std::vector<Seed> seeds)
 {
   std::stable_sort(seeds.begin(), seeds.end(),
                    [](const Seed& a, const Seed& b) { return a.material < b.material; });
-  std::vector<int> counts(scene.materials.size(), 0);
+  std::vector<int> counts(materials.size(), 0);
   for (const Seed& seed : seeds) ++counts[seed.material];
-  set_materials(domain, scene.materials, counts);
+  set_materials(domain, materials, counts);
   domain.average_volume = scene.grid.average_volume;
   Particles& p = domain.particles;
   for (std::size_t k = 0; k < seeds.size(); ++k)
@@ -26,12 +26,13 @@ void plant(Domain& domain, const Case& scene, std::vector<Seed> seeds)
     p.x[k] = p.reference_x[k] = seeds[k].x;
     p.y[k] = p.reference_y[k] = seeds[k].y;
     p.volume[k] = seeds[k].volume;
-    p.mass[k] = seeds[k].volume * scene.materials[seeds[k].material].elastic().density;
+    p.mass[k] = seeds[k].volume * materials[seeds[k].material].elastic().density;
   }
 }
 
 /// The column of a side: the model's outermost column of particles, in a grid one cell wide.
-std::unique_ptr<FreeFieldColumn> make_column(const Case& scene, const std::vector<Seed>& seeds, Edge edge)
+std::unique_ptr<FreeFieldColumn> make_column(const Case& scene, const std::vector<Material>& materials,
+                                             const std::vector<Seed>& seeds, Edge edge)
 {
   const double size = scene.grid.particle_spacing();
   const double side = edge == Edge::left ? scene.domain.left : scene.domain.right;
@@ -45,7 +46,7 @@ std::unique_ptr<FreeFieldColumn> make_column(const Case& scene, const std::vecto
   domain->grid.origin_x = edge == Edge::left ? side : side - scene.grid.spacing;
   domain->grid.origin_y = scene.domain.bottom;
   domain->grid.wrapped = true;
-  plant(*domain, scene, rows);
+  plant(*domain, materials, rows);
   sort_particles(*domain);
   return std::make_unique<FreeFieldColumn>(std::move(domain), side);
 }
@@ -109,20 +110,22 @@ CompliantBase* switch_boundaries(Domain& domain, const Case& scene, std::span<co
 Model make_model(const Case& scene)
 {
   Model model;
-  const std::vector<Seed> seeds = fill(scene).seeds;
+  std::vector<Seed> seeds = fill(scene).seeds;
+  std::vector<Material> materials = scene.materials;
+  if (scene.grid.interfaces == Interfaces::averaged) average_interfaces(scene, seeds, materials);
   model.main = std::make_unique<Domain>();
   Domain& main = *model.main;
   main.name = scene.name;
   main.grid.spacing = scene.grid.spacing;
   main.grid.origin_x = scene.domain.left;
   main.grid.origin_y = scene.domain.bottom;
-  plant(main, scene, seeds);
+  plant(main, materials, seeds);
   model.reference_volume = main.particles.volume;
   sort_particles(main);
   if (scene.seismic.sides == SideKind::free_field)
   {
-    model.left = make_column(scene, seeds, Edge::left);
-    model.right = make_column(scene, seeds, Edge::right);
+    model.left = make_column(scene, materials, seeds, Edge::left);
+    model.right = make_column(scene, materials, seeds, Edge::right);
   }
   return model;
 }
@@ -155,6 +158,7 @@ void add_seismic_boundaries(Model& model, const Case& scene, std::shared_ptr<con
           walls.insert(walls.end(), {left_wall(), right_wall(scene)});
         }
         domain.damping = 0;
+        domain.consistent_inertia = scene.seismic.inertia == Inertia::consistent;
         domain.gravity_y = -scene.statics.gravity;
         domain.plastic = true;
         // A column goes where the input takes it, with nothing on one side of it that could push it away.

@@ -225,7 +225,8 @@ void Observer::write_frame(const Clock& clock)
   frame.materials.resize(main.particles.size());
   for (std::size_t m = 0; m < main.materials.size(); ++m)
     std::fill(frame.materials.begin() + main.material_begin[m],
-              frame.materials.begin() + main.material_begin[m + 1], m);
+              frame.materials.begin() + main.material_begin[m + 1],
+              main.materials[m].origin < 0 ? m : main.materials[m].origin);
   const std::string name = frame_name(static_cast<std::int64_t>(frames_.size()));
   mpm::write_frame(*session_.folder / name, frame, session_.provenance());
   frames_.push_back({name, clock.time()});

@@ -328,7 +328,7 @@ TEST_CASE("Overrides win, are recorded and are checked under their own name", "[
 
   CHECK(refusal(small, {"grid.spacng=1 m"}) ==
         "65\n--set grid.spacng=1 m: grid.spacng: unknown key 'spacng'; allowed: spacing, "
-        "particles_per_cell or volume_average; did you mean 'spacing'?\n");
+        "particles_per_cell, volume_average or interfaces; did you mean 'spacing'?\n");
   CHECK(refusal(small, {"grid.spacing=2"}) ==
         "65\n--set grid.spacing=2: grid.spacing: needs a unit: write '2 m'; units: m, mm, cm or km\n");
   CHECK_THAT(refusal(small, {"grid.spacing"}),
@@ -376,8 +376,8 @@ TEST_CASE("What a profile holds is checked as the file's own keys, at the profil
   CHECK(refusal(text, {}, "fine") ==
         "65\n"
         "case.yaml:16:19: grid.spacing: needs a unit: write '0.5 m'; units: m, mm, cm or km\n"
-        "case.yaml:17:5: grid.particle: unknown key 'particle'; allowed: spacing, particles_per_cell or "
-        "volume_average; did "
+        "case.yaml:17:5: grid.particle: unknown key 'particle'; allowed: spacing, particles_per_cell, "
+        "volume_average or interfaces; did "
         "you mean "
         "'particles_per_cell'?\n"
         "case.yaml:18:5: domain.x: is a list of 2, counted from 0; it has no '2'\n"
@@ -431,6 +431,19 @@ TEST_CASE("The share of FLIP ends when ground slides unless the case keeps it", 
   CHECK(load(shaken + "  flip_ends: never\n").seismic.flip_ends == FlipEnds::never);
   CHECK_THAT(refusal(shaken + "  flip_ends: newer\n"),
              Contains("seismic.flip_ends: is 'newer'; must be on_slide or never; did you mean 'never'?"));
+}
+
+TEST_CASE("Interfaces are sharp and inertia is lumped unless the case says otherwise", "[io]")
+{
+  const std::string shaken = small + "seismic:\n  duration: 1 s\n";
+  const Case usual = load(shaken);
+  CHECK(usual.grid.interfaces == Interfaces::sharp);
+  CHECK(usual.seismic.inertia == Inertia::lumped);
+  CHECK(load(shaken + "  inertia: consistent\n").seismic.inertia == Inertia::consistent);
+  CHECK(load(replaced(shaken, "grid: {", "grid: {interfaces: averaged, ")).grid.interfaces ==
+        Interfaces::averaged);
+  CHECK_THAT(refusal(shaken + "  inertia: lumpd\n"),
+             Contains("must be lumped or consistent; did you mean 'lumped'?"));
 }
 
 TEST_CASE("Surfaces and regions have to fit together", "[io]")

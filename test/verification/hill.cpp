@@ -1,6 +1,8 @@
 #include "test/verification/cases.hpp"
 #include "test/verification/column.hpp"
 
+#include "io/units.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -25,6 +27,8 @@ std::map<std::string, History> shake_gauges(const Case& scene, long samples)
     model.main->tracers.push_back(
         {gauge.x, std::min(gauge.y, scene.ground_height(gauge.x)), gauge.x, gauge.y, 0, 0});
   add_seismic_boundaries(model, scene, wave_of(scene), false);
+  model.for_each_domain([&](Domain& domain, const std::string&)
+                        { domain.flip_blend = scene.seismic.flip_blend; });
   const double dt = step_dividing(every, scene, *model.main);
   const long stride = std::lround(every / dt);
   std::map<std::string, History> histories;
@@ -73,13 +77,13 @@ double greatest_relative_difference(const Curve& curve)
     greatest = std::max(greatest, std::fabs(curve.model[k] / curve.reference[k] - 1));
   return greatest;
 }
-} // namespace
 
-Findings run_hill(const std::filesystem::path& folder, double spacing)
+/// The case of a folder against its reference.
+Findings compare(const Case& scene, const std::filesystem::path& folder)
 {
   const auto table = read_table(folder / "reference.csv");
   const std::vector<double>& time = table.at("time");
-  const auto found = shake_gauges(scene_at(folder, spacing), static_cast<long>(time.size()));
+  const auto found = shake_gauges(scene, static_cast<long>(time.size()));
   Findings findings;
   double surface = 0, within = 0;
   for (const auto& [name, history] : found)
@@ -95,6 +99,31 @@ Findings run_hill(const std::filesystem::path& folder, double spacing)
   }
   findings.errors["surface"] = surface;
   findings.errors["within"] = within;
+  return findings;
+}
+} // namespace
+
+Findings run_hill(const std::filesystem::path& folder, double spacing)
+{
+  return compare(scene_at(folder, spacing), folder);
+}
+
+Findings run_hill_options(const std::filesystem::path& folder, double spacing)
+{
+  const std::vector<std::string> flip{"seismic.flip_blend=0.9"},
+      averaged{"grid.interfaces=averaged", "seismic.inertia=consistent"};
+  std::vector<std::string> all = flip;
+  all.insert(all.end(), averaged.begin(), averaged.end());
+  Findings findings;
+  for (const auto& [name, options] :
+       {std::pair{"FLIP", flip}, std::pair{"averaged", averaged}, std::pair{"all", all}})
+  {
+    std::vector<std::string> settings = options;
+    settings.push_back("grid.spacing=" + number_text(spacing) + " m");
+    const Findings found = compare(load_case(folder / "../hill/case.yaml", settings), folder / "../hill");
+    for (const auto& [measure, error] : found.errors)
+      findings.errors[std::string(name) + ", " + measure] = error;
+  }
   return findings;
 }
 } // namespace mpm::verification

@@ -70,6 +70,12 @@ TEST_CASE("Two layers on rock amplify as their recursion says (V9)", "[verificat
   quick("two_layers");
 }
 
+TEST_CASE("Layers amplify more exactly with averaged interfaces and consistent inertia (V8, V9)",
+          "[verification]")
+{
+  quick("layer_consistent");
+}
+
 TEST_CASE("Soil on rock amplifies P waves with the P modulus (V10)", "[verification]")
 {
   quick("layer_p");
@@ -89,6 +95,11 @@ TEST_CASE("A level layered model moves as its own free-field column, S and P tog
 TEST_CASE("An elastic slope answers a wavelet as finite elements say (V15)", "[verification]")
 {
   quick("hill");
+}
+
+TEST_CASE("An elastic slope answers more exactly with the options for waves (V15)", "[.fine]")
+{
+  quick("hill_options");
 }
 
 TEST_CASE("The compliant base reflects oblique waves as dashpots do (V12)", "[verification]")

@@ -1,0 +1,120 @@
+#include "solver/mpm/inertia.hpp"
+
+#include "solver/mpm/domain.hpp"
+#include "solver/mpm/parallel.hpp"
+
+namespace mpm
+{
+namespace
+{
+constexpr double coefficient =
+    1.0 / 3; // half the second moment of the product of two cubic splines, over h^2
+constexpr double none_below = 0.4, all_above = 0.75; // least over greatest mass of three nodes in a line
+constexpr double greatest_dashpot = 4;               // dt c / m
+
+constexpr int first = tile_margin; // of the block's own nodes in its tile
+
+/// Change of the nodes' velocities by the equation of motion, and the mass that takes part.
+void prepare(Grid& g, int block, double dt)
+{
+  const bool dashpots = !g.dashpot_x.empty();
+  for (int k = block * block_nodes; k < (block + 1) * block_nodes; ++k)
+  {
+    const double m = g.mass[k];
+    const bool active = m > g.smallest_mass;
+    const double inverse = 1 / (active ? m : 1);
+    g.change_x[k] = active ? g.velocity_x[k] - g.momentum_x[k] * inverse : 0;
+    g.change_y[k] = active ? g.velocity_y[k] - g.momentum_y[k] * inverse : 0;
+    const double dashpot = dashpots ? std::max(g.dashpot_x[k], g.dashpot_y[k]) : 0;
+    g.linked_mass[k] = active && dt * dashpot < greatest_dashpot * m ? m : 0;
+  }
+}
+
+void read_tile(const Grid& g, const Neighbours& around, const std::vector<double>& field, Tile& tile)
+{
+  tile.value.fill(0);
+  for_each_run(g, around,
+               [&](int node, int place, auto count)
+               {
+                 const double* __restrict from = &field[node];
+                 double* __restrict to = &tile.value[place];
+                 for (int k = 0; k < count; ++k) to[k] = from[k];
+               });
+}
+
+inline double lesser(double a, double b)
+{
+  return a < b ? a : b;
+}
+inline double greater(double a, double b)
+{
+  return a > b ? a : b;
+}
+
+/// A third of m_ij between each node of a tile and the next one `step` places on.
+template <int step>
+void link(const Tile& mass, Tile& links)
+{
+  Tile evenness;
+  const double* __restrict m = mass.value.data();
+  double* __restrict e = evenness.value.data();
+  double* __restrict out = links.value.data();
+  for (int t = 0; t < step; ++t) e[t] = e[tile_size - 1 - t] = 0;
+  for (int t = step; t < tile_size - step; ++t)
+  {
+    const double a = m[t - step], b = m[t], c = m[t + step];
+    const double least = lesser(lesser(a, b), c), greatest = greater(greater(a, b), c);
+    const double ratio = least / greater(greatest, std::numeric_limits<double>::min());
+    const double share = (ratio - none_below) * (1 / (all_above - none_below));
+    e[t] = greater(lesser(share, 1), 0);
+  }
+  for (int t = 0; t < tile_size - step; ++t)
+    out[t] = coefficient * lesser(m[t], m[t + step]) * lesser(e[t], e[t + step]);
+}
+
+/// What the nodes of a block get from their neighbours, over their mass, added to one component of the
+/// velocity.
+void add_exchange(const Tile& mass, const Tile& across, const Tile& up, const Tile& change, double* velocity)
+{
+  constexpr int left = 1, below = tile_stride;
+  for (int row = 0; row < block_cells; ++row)
+  {
+    const int start = (row + first) * tile_stride + first;
+    const double *m = &mass.value[start], *x = &across.value[start], *y = &up.value[start];
+    const double* a = &change.value[start];
+    double* __restrict v = velocity + row * block_cells;
+    for (int k = 0; k < block_cells; ++k)
+    {
+      const double sum = x[k - left] * (a[k] - a[k - left]) + x[k] * (a[k] - a[k + left]) +
+                         y[k - below] * (a[k] - a[k - below]) + y[k] * (a[k] - a[k + below]);
+      v[k] += m[k] > 0 ? sum / m[k] : 0;
+    }
+  }
+}
+
+void correct_block(Grid& g, int block)
+{
+  const int begin = block * block_nodes;
+  const auto own = g.linked_mass.begin() + begin;
+  if (std::all_of(own, own + block_nodes, [](double m) { return m <= 0; })) return;
+  Tile mass, across, up, change;
+  read_tile(g, g.neighbours[block], g.linked_mass, mass);
+  link<1>(mass, across);
+  link<tile_stride>(mass, up);
+  read_tile(g, g.neighbours[block], g.change_x, change);
+  add_exchange(mass, across, up, change, &g.velocity_x[begin]);
+  read_tile(g, g.neighbours[block], g.change_y, change);
+  add_exchange(mass, across, up, change, &g.velocity_y[begin]);
+}
+} // namespace
+
+void correct_inertia(Domain& domain, double dt)
+{
+  Grid& g = domain.grid;
+  for (auto* field : {&g.change_x, &g.change_y, &g.linked_mass}) field->resize(g.nodes());
+  const int blocks = static_cast<int>(g.blocks.size());
+  parallel::for_each(blocks, [&](int k) { prepare(g, k, dt); });
+  parallel::for_each(blocks, [&](int k) { correct_block(g, k); });
+  for (const auto& boundary : domain.boundaries) boundary->mirror_velocities(domain);
+}
+} // namespace mpm

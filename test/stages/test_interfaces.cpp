@@ -1,0 +1,103 @@
+#include "solver/stages/interfaces.hpp"
+#include "test/stages/ground.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace mpm;
+using namespace mpm::test;
+
+namespace
+{
+struct Mixed
+{
+  std::vector<Seed> seeds;
+  std::vector<Material> materials;
+};
+
+Mixed mixed(const Case& scene)
+{
+  Mixed result{fill(scene).seeds, scene.materials};
+  average_interfaces(scene, result.seeds, result.materials);
+  return result;
+}
+
+/// Share of soil in the hat of half a cell to each side of `above` cells over rockhead.
+double soil(double above)
+{
+  const double t = std::clamp(2 * above, -1.0, 1.0);
+  return t < 0 ? 0.5 * (1 + t) * (1 + t) : 1 - 0.5 * (1 - t) * (1 - t);
+}
+} // namespace
+
+TEST_CASE("Particles near a level interface have averaged compliances, the same in all columns", "[stages]")
+{
+  const double rockhead = GENERATE(10.0, 10.15, 9.7); // on a grid line, and not
+  const Case scene = scene_from(level_ground(1, 4, 12, rockhead, 20, 0));
+  const Elastic &rock = scene.materials[0].elastic(), &soft = scene.materials[1].elastic();
+  const Mixed ground = mixed(scene);
+  REQUIRE(ground.materials.size() > 2);
+  const std::size_t rows = ground.seeds.size() / 48;
+  for (std::size_t k = 0; k < ground.seeds.size(); ++k)
+  {
+    const Seed& seed = ground.seeds[k];
+    CHECK(seed.material == ground.seeds[k % rows].material);
+    const Material& material = ground.materials[seed.material];
+    const Elastic& law = material.elastic();
+    CHECK(law.density == (seed.y > rockhead ? soft.density : rock.density));
+    // A sixteenth to the nearest level, and an eighth of the height of a row over which a share is constant.
+    const double s = soil(seed.y - rockhead), tolerance = 1.0 / 32 + 0.02;
+    const double G = 1 / law.shear_modulus(), M = 1 / law.p_modulus();
+    const auto share = [](double x, double none, double all) { return (x - none) / (all - none); };
+    CHECK(std::fabs(share(G, 1 / rock.shear_modulus(), 1 / soft.shear_modulus()) - s) < tolerance);
+    CHECK(std::fabs(share(M, 1 / rock.p_modulus(), 1 / soft.p_modulus()) - s) < tolerance);
+    if (std::fabs(seed.y - rockhead) > 0.7) CHECK(seed.material < 2);
+    if (material.origin >= 0) CHECK(material.origin == (seed.y > rockhead ? 1 : 0));
+  }
+}
+
+TEST_CASE("A law that does not admit the softer moduli keeps its own", "[stages]")
+{
+  // Softening over 8e-4 needs 3 G > (peak - residual) / 8e-4; a mixture with a soil a hundred times softer
+  // has not got it.
+  std::string text = level_ground(1, 3, 6, 4, 8, 0);
+  const std::string from = "model: elastic, density: 2200 kg/m3, young_modulus: 250 MPa, poisson_ratio: 0.25";
+  text.replace(text.find(from), from.size(),
+               "model: von_mises, density: 2200 kg/m3, young_modulus: 250 MPa, poisson_ratio: 0.25, "
+               "strength: {peak: 300 kPa, residual: 100 kPa}, softening: {strain: 0.0008}");
+  text.replace(text.find("40 MPa"), 6, "2.5 MPa");
+  const Case scene = scene_from(text);
+  const Mixed ground = mixed(scene);
+  int kept = 0;
+  for (const Material& material : ground.materials)
+    if (material.origin == 0) kept += material.elastic().young == scene.materials[0].elastic().young;
+  CHECK(kept > 0);
+}
+
+TEST_CASE("Level ground with averaged interfaces and consistent inertia moves as its columns", "[stages]")
+{
+  // METHODS test 33; bound of the ladder's level_site.
+  std::string text = level_ground(1, 2, 20, 5, 10, 0);
+  text.replace(text.find("per_cell: 2"), 11, "per_cell: 2, interfaces: averaged");
+  text.replace(text.find("duration: 1 s"), 13, "duration: 1 s\n  inertia: consistent");
+  const Case scene = scene_from(text);
+  Model model = make_model(scene);
+  IncomingWave wave;
+  wave.horizontal = pulse(0.1, 0.25, 1);
+  add_seismic_boundaries(model, scene, std::make_shared<IncomingWave>(wave), false);
+  const double dt = stable_step(scene, model);
+  const Particles &p = model.main->particles, &q = model.left->domain->particles;
+  double apart = 0, peak = 0;
+  for (int k = 0; k * dt < 0.6; ++k)
+  {
+    advance(model, k * dt, dt);
+    for (int n = 0; n < p.size(); ++n)
+    {
+      const int partner = model.left->particle_of_row(model.left->row_near(p.reference_y[n]));
+      apart = std::max(apart, std::fabs(p.velocity_x[n] - q.velocity_x[partner]));
+      peak = std::max(peak, std::fabs(p.velocity_x[n]));
+    }
+  }
+  INFO("apart " << apart / peak);
+  CHECK(peak > 0.1);
+  CHECK(apart < 1e-3 * peak);
+}
