@@ -19,7 +19,6 @@ void plant(Domain& domain, const std::vector<Material>& materials, std::vector<S
   std::vector<int> counts(materials.size(), 0);
   for (const Seed& seed : seeds) ++counts[seed.material];
   set_materials(domain, materials, counts);
-  domain.average_volume = scene.grid.average_volume;
   Particles& p = domain.particles;
   for (std::size_t k = 0; k < seeds.size(); ++k)
   {
@@ -127,6 +126,8 @@ Model make_model(const Case& scene)
     model.left = make_column(scene, materials, seeds, Edge::left);
     model.right = make_column(scene, materials, seeds, Edge::right);
   }
+  model.for_each_domain([&](Domain& domain, const std::string&)
+                        { domain.average_volume = scene.grid.average_volume; });
   return model;
 }
 

@@ -1,5 +1,6 @@
 // Scaled masses: the same equilibrium in fewer steps.
 
+#include "solver/mpm/step.hpp"
 #include "test/stages/ground.hpp"
 
 #include <catch2/catch.hpp>

@@ -73,7 +73,7 @@ Slide slide(const InfiniteSlope& slope)
 
 Slide slide_finite(const InfiniteSlope& slope)
 {
-  const double h = slope.spacing, sole = h * rock, zone = h * (rock + slope.zone_cells);
+  const double h = slope.spacing, sole = h * slope.rock_cells, zone = sole + h * slope.zone_cells;
   const double across = behind + length + ahead;
   Elastic stiff = slope.law;
   Domain domain = scenes::make_domain({{stiff, {0, 0, across, sole}, h / 2},
