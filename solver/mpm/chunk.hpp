@@ -50,12 +50,17 @@ struct Ahead
 {
   std::array<const double*, 16> stream; ///< fields at this chunk's first particle
 
-  void fetch(int k) const
+  /// With every other particle k one line of a quarter of the fields.
+  [[gnu::always_inline]] void fetch(int k) const
   {
-    const unsigned place = k, first = place & 7u;
-    const std::size_t line = chunk_size + (place & ~7u);
-    __builtin_prefetch(stream[first] + line);
-    __builtin_prefetch(stream[first + 8] + line);
+    if (k & 1) return;
+    const double* const* quarter = &stream[2 * (k & 6)];
+    const std::size_t line = chunk_size + (static_cast<unsigned>(k) & ~7u);
+    // One by one and inline: the compiler drops loops and functions that do nothing else.
+    __builtin_prefetch(quarter[0] + line);
+    __builtin_prefetch(quarter[1] + line);
+    __builtin_prefetch(quarter[2] + line);
+    __builtin_prefetch(quarter[3] + line);
   }
 };
 
