@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Writes cases/verification/slope/reference.csv: factors of safety of the 2:1 slopes by Bishop's simplified method of
 slices (Bishop 1955), the least over circles that stay above the rough base. Heights in units of H, stresses of rho g H."""
 import pathlib

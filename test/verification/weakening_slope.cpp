@@ -47,6 +47,7 @@ Findings run_finite_block(const std::filesystem::path&, double spacing)
 {
   Findings findings;
   compare(findings, ", FLIP 0.9", slope_at(spacing, 0.9), slide_finite);
+  compare(findings, ", FLIP 0.99", slope_at(spacing, 0.99), slide_finite);
   return findings;
 }
 } // namespace mpm::verification
