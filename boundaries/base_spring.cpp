@@ -32,7 +32,6 @@ std::vector<std::array<double, 2>> BaseSpring::follow(const std::vector<std::arr
                                                       double dt)
 {
   std::vector<std::array<double, 2>> far_end(distance.size());
-  if (!acts()) return far_end;
   stretch_.resize(distance.size(), {});
   reaction_.resize(distance.size(), {});
   const double share = -std::expm1(-dt / (lag * time_)); // exact for a distance that stays over the step

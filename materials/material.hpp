@@ -48,14 +48,13 @@ struct Material
         },
         law);
   }
-  /// By how much, as a logarithm, the volume of the material's k-th particle exceeds what it will be when it
-  /// has closed again and carries pressure; 0 for laws that do not open.
-  double opening(int k) const
+  /// A history variable over the material's particles; null where the law has none of that name.
+  const std::vector<double>* field(std::string_view name) const
   {
     const auto fields = state_fields();
     for (std::size_t f = 0; f < state.size(); ++f)
-      if (fields[f].name == "opening") return state[f][k];
-    return 0;
+      if (fields[f].name == name) return &state[f];
+    return nullptr;
   }
   /// Energy in J per m3 of undeformed volume that plastic flow has dissipated at the material's k-th
   /// particle.

@@ -36,11 +36,19 @@ struct StressBatch
   }
 }
 
-/// Mises stress q = sqrt(3 J2) in Pa.
-inline double mises_stress(double xx, double yy, double zz, double xy)
+/// A stress as its mean and deviator, Pa.
+struct Deviator
 {
-  const double p = (xx + yy + zz) / 3;
-  const double a = xx - p, b = yy - p, c = zz - p;
-  return std::sqrt(1.5 * (a * a + b * b + c * c + 2 * xy * xy));
-}
+  double mean, xx, yy, zz, xy;
+
+  Deviator(double sxx, double syy, double szz, double sxy)
+      : mean((sxx + syy + szz) * (1.0 / 3)), xx(sxx - mean), yy(syy - mean), zz(szz - mean), xy(sxy)
+  {
+  }
+  /// Of point k of a batch.
+  Deviator(const StressBatch& s, int k) : Deviator(s.xx[k], s.yy[k], s.zz[k], s.xy[k]) {}
+  double j2() const { return 0.5 * (xx * xx + yy * yy + zz * zz) + xy * xy; }
+  /// Mises stress q = sqrt(3 J2) in Pa.
+  double mises() const { return std::sqrt(3 * j2()); }
+};
 } // namespace mpm

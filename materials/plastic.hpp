@@ -1,5 +1,5 @@
 #pragma once
-// What the laws that crush, slide and open share.
+// What the laws that yield, slide and open share.
 
 #include "materials/plane_strain.hpp"
 
@@ -8,10 +8,10 @@
 
 namespace mpm
 {
-/// Calls f(k) for the points of a batch with excess(k) > 0, k from 0. Finding them vectorises, so that a
-/// batch in which nobody yields costs little.
+/// Calls f(begin, n, over) for stretches of a batch in which a point has excess(k) > 0; over[k] is what
+/// excess(begin + k) was. Finding them vectorises, so that a batch in which nobody yields costs little.
 template <class Excess, class Function>
-void for_each_beyond(int count, const Excess& excess, const Function& f)
+void for_each_stretch_beyond(int count, const Excess& excess, const Function& f)
 {
   constexpr int width = 64;
   for (int begin = 0; begin < count; begin += width)
@@ -25,10 +25,20 @@ void for_each_beyond(int count, const Excess& excess, const Function& f)
       over[k] = excess(begin + k);
       found += over[k] > 0 ? 1 : 0;
     }
-    if (found == 0) continue;
-    for (int k = 0; k < n; ++k)
-      if (over[k] > 0) f(begin + k);
+    if (found > 0) f(begin, n, over.data());
   }
+}
+
+/// Calls f(k) for the points of a batch with excess(k) > 0, k from 0.
+template <class Excess, class Function>
+void for_each_beyond(int count, const Excess& excess, const Function& f)
+{
+  for_each_stretch_beyond(count, excess,
+                          [&](int begin, int n, const double* over)
+                          {
+                            for (int k = 0; k < n; ++k)
+                              if (over[k] > 0) f(begin + k);
+                          });
 }
 
 /// Ground that was torn apart carries no pressure until it has closed again. `opening` is the volumetric

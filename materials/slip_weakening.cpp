@@ -79,26 +79,21 @@ void SlipWeakening::return_to_surface(const StressBatch& s, double* __restrict s
 {
   const double G = shear_modulus(), K = bulk_modulus();
   const double peak = mobilised(friction_peak), residual = mobilised(friction_residual);
-  const auto shear = [&](int k, double mean)
-  {
-    const double a = s.xx[k] - mean, b = s.yy[k] - mean, c = s.zz[k] - mean;
-    return std::sqrt(0.5 * (a * a + b * b + c * c) + s.xy[k] * s.xy[k]);
-  };
   // Points that have slipped are looked at closely from the residual strength on: their own costs an
   // exponential.
   const auto excess = [&](int k)
   {
-    const double mean = (s.xx[k] + s.yy[k] + s.zz[k]) / 3;
-    const double over = shear(k, mean) + (strain[k] > 0 ? residual : peak) * mean;
+    const Deviator trial(s, k);
+    const double over = std::sqrt(trial.j2()) + (strain[k] > 0 ? residual : peak) * trial.mean;
     return opening[k] > 0 ? 1.0 : over;
   };
   const auto settle = [&](int k)
   {
-    const double elastic = (s.xx[k] + s.yy[k] + s.zz[k]) / 3;
-    const double closed = close_opening(elastic, K, opening[k]);
+    const Deviator trial(s, k);
+    const double closed = close_opening(trial.mean, K, opening[k]);
     const double mean = std::min(closed, 0.0); // no tension
     opening[k] += (closed - mean) / K;
-    const double tau = shear(k, elastic);
+    const double tau = std::sqrt(trial.j2());
     double step = 0, scale = 1;
     if (tau > -mean * mobilised(friction(strain[k])))
     {
@@ -107,10 +102,10 @@ void SlipWeakening::return_to_surface(const StressBatch& s, double* __restrict s
       strain[k] += step;
       dissipation[k] += std::sqrt(3.0) * scale * tau * step * volume_ratio(s, k, density);
     }
-    if (step == 0 && mean == elastic) return;
-    s.xx[k] = mean + (s.xx[k] - elastic) * scale;
-    s.yy[k] = mean + (s.yy[k] - elastic) * scale;
-    s.zz[k] = mean + (s.zz[k] - elastic) * scale;
+    if (step == 0 && mean == trial.mean) return;
+    s.xx[k] = mean + trial.xx * scale;
+    s.yy[k] = mean + trial.yy * scale;
+    s.zz[k] = mean + trial.zz * scale;
     s.xy[k] *= scale;
   };
   for_each_beyond(s.count, excess, settle);

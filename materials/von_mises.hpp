@@ -1,6 +1,7 @@
 #pragma once
 
 #include "materials/elastic.hpp"
+#include "materials/plastic.hpp"
 #include "materials/softening.hpp"
 
 namespace mpm
@@ -65,57 +66,38 @@ struct VonMises : Elastic, LinearSoftening
   }
 
 private:
-  /// 3 J2 of the stress at point i, and its deviator and mean.
-  struct Deviator
-  {
-    double p, a, b, c, d;
-
-    Deviator(const StressBatch& s, int i)
-        : p((s.xx[i] + s.yy[i] + s.zz[i]) * (1.0 / 3)), a(s.xx[i] - p), b(s.yy[i] - p), c(s.zz[i] - p),
-          d(s.xy[i])
-    {
-    }
-    double mises_square() const { return 1.5 * (a * a + b * b + c * c + 2 * d * d); }
-  };
-
-  /// Number of points beyond the yield surface: where all are elastic, plasticity costs this count alone.
-  double count_yielding(const StressBatch& s, const double* __restrict strain, double slope) const
-  {
-    const double top = peak, bottom = residual;
-    double yielding = 0;
-#pragma omp simd reduction(+ : yielding)
-    for (int i = 0; i < s.count; ++i)
-    {
-      const double strength = std::max(bottom, top + slope * strain[i]);
-      yielding += Deviator(s, i).mises_square() > strength * strength ? 1.0 : 0.0;
-    }
-    return yielding;
-  }
-
   void return_to_yield_surface(const StressBatch& s, double* __restrict strain) const
   {
-    const double stiffness = 3 * shear_modulus(), top = peak, bottom = residual;
-    const double slope = (bottom - top) / softening_strain;
-    if (count_yielding(s, strain, slope) == 0) return;
+    const double stiffness = 3 * shear_modulus(), slope = (residual - peak) / softening_strain;
     const double softening_rate = 1 / (stiffness + slope), residual_rate = 1 / stiffness;
-#pragma GCC ivdep
-    for (int i = 0; i < s.count; ++i)
+    const auto strength = [=, this](double strain) { return std::max(residual, peak + slope * strain); };
+    const auto excess = [&](int k)
     {
-      const Deviator trial(s, i);
-      const double square = trial.mises_square(), q = std::sqrt(square);
-      const double strength = std::max(bottom, top + slope * strain[i]);
-      const bool yields = square > strength * strength; // an elastic point stays as it is, to the last bit
-      // The two roots of the return equation, softening and residual; the smaller one is admissible.
-      const double soft = (q - (top + slope * strain[i])) * softening_rate;
-      const double flat = (q - bottom) * residual_rate;
-      const double step = yields ? std::max(0.0, std::min(soft, flat)) : 0;
-      const double scale = 1 - stiffness * step / std::max(q, 1e-300);
-      strain[i] += step;
-      s.xx[i] = yields ? trial.p + trial.a * scale : s.xx[i];
-      s.yy[i] = yields ? trial.p + trial.b * scale : s.yy[i];
-      s.zz[i] = yields ? trial.p + trial.c * scale : s.zz[i];
-      s.xy[i] = yields ? trial.d * scale : s.xy[i];
-    }
+      const double allowed = strength(strain[k]);
+      return 3 * Deviator(s, k).j2() - allowed * allowed;
+    };
+    const auto settle = [&](int begin, int n, const double* __restrict over)
+    {
+#pragma GCC ivdep
+      for (int i = 0; i < n; ++i)
+      {
+        const int k = begin + i;
+        const Deviator trial(s, k);
+        const bool yields = over[i] > 0; // an elastic point stays as it is, to the last bit
+        const double q = std::max(trial.mises(), std::numeric_limits<double>::min());
+        // The two roots of the return equation, softening and residual; the smaller one is admissible.
+        const double soft = (q - (peak + slope * strain[k])) * softening_rate;
+        const double flat = (q - residual) * residual_rate;
+        const double step = yields ? std::max(0.0, std::min(soft, flat)) : 0;
+        const double scale = 1 - stiffness * step / q;
+        strain[k] += step;
+        s.xx[k] = yields ? trial.mean + trial.xx * scale : s.xx[k];
+        s.yy[k] = yields ? trial.mean + trial.yy * scale : s.yy[k];
+        s.zz[k] = yields ? trial.mean + trial.zz * scale : s.zz[k];
+        s.xy[k] = yields ? trial.xy * scale : s.xy[k];
+      }
+    };
+    for_each_stretch_beyond(s.count, excess, settle);
   }
 };
 } // namespace mpm

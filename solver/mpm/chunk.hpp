@@ -50,6 +50,28 @@ struct Ahead
 {
   std::array<const double*, 16> stream; ///< fields at this chunk's first particle
 
+  /// The fields that both transfers read, and three more.
+  [[gnu::always_inline]] Ahead(const Particles& p, int begin, const double* a, const double* b,
+                               const double* c)
+      : stream{&p.x[begin],
+               &p.y[begin],
+               &p.mass[begin],
+               &p.volume[begin],
+               &p.velocity_x[begin],
+               &p.velocity_y[begin],
+               &p.affine_xx[begin],
+               &p.affine_xy[begin],
+               &p.affine_yx[begin],
+               &p.affine_yy[begin],
+               &p.stress_xx[begin],
+               &p.stress_xy[begin],
+               &p.stress_yy[begin],
+               a,
+               b,
+               c}
+  {
+  }
+
   /// With every other particle k one line of a quarter of the fields.
   [[gnu::always_inline]] void fetch(int k) const
   {

@@ -188,6 +188,20 @@ inline void add_tile(const Grid& grid, const Neighbours& around, const PairTile&
                });
 }
 
+/// Copies a node field into a tile; nodes of blocks that do not exist are zero.
+inline void read_tile(const Grid& grid, const Neighbours& around, const std::vector<double>& field,
+                      Tile& tile)
+{
+  tile.value.fill(0);
+  for_each_run(grid, around,
+               [&](int node, int place, auto count)
+               {
+                 const double* __restrict from = &field[node];
+                 double* __restrict to = &tile.value[place];
+                 for (int k = 0; k < count; ++k) to[k] = from[k];
+               });
+}
+
 /// Copies the components of a vector field into a tile; nodes of blocks that do not exist are zero.
 inline void read_tile(const Grid& grid, const Neighbours& around, const std::vector<double>& x,
                       const std::vector<double>& y, PairTile& tile)

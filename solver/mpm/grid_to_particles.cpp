@@ -124,7 +124,7 @@ void apply(Particles& p, int begin, int count, const Readings& from, double spac
     cxy[k] = inverse_D * from.moment_y[k][0];
     cyy[k] = inverse_D * from.moment_y[k][1];
   }
-  for (int k = 0; k < chunk_size; ++k)
+  for (int k = 0; k < count; ++k)
   {
     L.xx[k] = from.slope_x[k][0];
     L.yx[k] = from.slope_x[k][1];
@@ -152,14 +152,11 @@ double update_home(Domain& domain, const Home& home, double dt)
                  {
                    stencils.find(tile, &p.x[begin], &p.y[begin], count);
                    const Material& m = domain.materials[material];
-                   const double* x = &p.x[begin];
-                   const auto state = [&](std::size_t k)
-                   { return k < m.state.size() ? &m.state[k][begin - domain.material_begin[material]] : x; };
-                   const Ahead ahead{{x, &p.y[begin], &p.mass[begin], &p.volume[begin], &p.velocity_x[begin],
-                                      &p.velocity_y[begin], &p.affine_xx[begin], &p.affine_xy[begin],
-                                      &p.affine_yx[begin], &p.affine_yy[begin], &p.stress_xx[begin],
-                                      &p.stress_xy[begin], &p.stress_yy[begin], &p.stress_zz[begin], state(0),
-                                      state(1)}};
+                   const auto state = [&](std::size_t k) {
+                     return k < m.state.size() ? &m.state[k][begin - domain.material_begin[material]]
+                                               : &p.x[begin];
+                   };
+                   const Ahead ahead(p, begin, &p.stress_zz[begin], state(0), state(1));
                    if (flip)
                    {
                      read<true>(stencils, count, velocity, change, readings, ahead, greatest);

@@ -30,18 +30,6 @@ void prepare(Grid& g, int block, double dt)
   }
 }
 
-void read_tile(const Grid& g, const Neighbours& around, const std::vector<double>& field, Tile& tile)
-{
-  tile.value.fill(0);
-  for_each_run(g, around,
-               [&](int node, int place, auto count)
-               {
-                 const double* __restrict from = &field[node];
-                 double* __restrict to = &tile.value[place];
-                 for (int k = 0; k < count; ++k) to[k] = from[k];
-               });
-}
-
 inline double lesser(double a, double b)
 {
   return a < b ? a : b;

@@ -113,11 +113,8 @@ void scatter_range(Domain& domain, const Home& home, const Range& range)
   for_each_chunk(range,
                  [&](int begin, int count)
                  {
-                   const Ahead ahead{{&p.x[begin], &p.y[begin], &p.mass[begin], &p.volume[begin],
-                                      &p.velocity_x[begin], &p.velocity_y[begin], &p.affine_xx[begin],
-                                      &p.affine_xy[begin], &p.affine_yx[begin], &p.affine_yy[begin],
-                                      &p.stress_xx[begin], &p.stress_xy[begin], &p.stress_yy[begin],
-                                      &p.x[begin], &p.x[begin], &p.x[begin]}};
+                   const double* none = &p.x[begin];
+                   const Ahead ahead(p, begin, none, none, none);
                    stencils.find(tile, &p.x[begin], &p.y[begin], count);
                    sources.gather(p, begin, count, mass_scale);
                    scatter(stencils, sources, count, tiles, ahead);

@@ -8,14 +8,11 @@ namespace mpm
 namespace
 {
 // What may be left of a ledger that is kept well:
-// - of what the transfers take, the stress does work on during half a step: dt/2 f . dv, at most omega dt / 2
-// of it,
-//   and the fastest motion of the grid has omega of about c_p/h, so C/2 with C the Courant number, 1/4 as a
-//   rule;
-// - of a wave's energy (omega dt)^2 at the ends of the ledger: 1.5 % at the 26 cells a wavelength of C = 0.5
-// that
-//   waves need anyway; the elastic energy of a hypoelastic law is known to a third of the elastic strain, 0.1
-//   %.
+// Of what the transfers take, the stress does work on during half a step: dt/2 f . dv, at most omega dt / 2
+// of it, and the fastest motion of the grid has omega of about c_p/h, so C/2 with C the Courant number, 1/4
+// as a rule. Of a wave's energy (omega dt)^2 is left at the ends of the ledger: 1.5 % at the 26 cells a
+// wavelength of C = 0.5 that waves need anyway; the elastic energy of a hypoelastic law is known to a third
+// of the elastic strain, 0.1 %.
 constexpr double transfer_share = 0.25, share = 0.02;
 // An energy of a millionth of what gravity has stored in the ground is none.
 constexpr double negligible = 1e-6;

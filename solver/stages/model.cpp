@@ -260,11 +260,12 @@ double greatest_wave_speed(const Domain& domain)
   {
     const Material& material = domain.materials[m];
     const int begin = domain.material_begin[m];
+    const auto* torn = material.field("opening");
     double lightest = std::numeric_limits<double>::infinity();
     for (int k = begin; k < domain.material_begin[m + 1]; ++k)
     {
-      const double opening =
-          material.opening(k - begin); // costs an exponential only where ground is torn apart
+      // The volume that a torn point will have when it has closed and carries pressure again.
+      const double opening = torn != nullptr ? (*torn)[k - begin] : 0;
       const double closed = opening > 0 ? p.volume[k] * std::exp(-opening) : p.volume[k];
       lightest = std::min(lightest, material.mass_scale * p.mass[k] / closed);
     }

@@ -26,16 +26,15 @@ std::pair<double, double> yielded(const Domain& domain)
 {
   double area = 0, greatest = 0;
   for (std::size_t m = 0; m < domain.materials.size(); ++m)
-    for (std::size_t f = 0; f < domain.materials[m].state.size(); ++f)
+  {
+    const auto* strain = domain.materials[m].field("plastic_strain");
+    if (strain == nullptr) continue;
+    for (std::size_t k = 0; k < strain->size(); ++k)
     {
-      if (domain.materials[m].state_fields()[f].name != "plastic_strain") continue;
-      const auto& strain = domain.materials[m].state[f];
-      for (std::size_t k = 0; k < strain.size(); ++k)
-      {
-        if (strain[k] > 0) area += domain.particles.volume[domain.material_begin[m] + k];
-        greatest = std::max(greatest, strain[k]);
-      }
+      if ((*strain)[k] > 0) area += domain.particles.volume[domain.material_begin[m] + k];
+      greatest = std::max(greatest, (*strain)[k]);
     }
+  }
   return {area, greatest};
 }
 } // namespace

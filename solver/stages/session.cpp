@@ -55,7 +55,8 @@ std::optional<int> parse(int argc, char** argv, Options& options)
     app.add_option("--scale", options.scale, "factor on the motion");
   }
   app.add_flag("--check", options.check, "validate and predict the cost; run nothing");
-  app.add_option("--threads", options.threads, "threads (default: OMP_NUM_THREADS, else all)")->check(CLI::Range(1, 4096));
+  app.add_option("--threads", options.threads, "threads (default: OMP_NUM_THREADS, else all)")
+      ->check(CLI::Range(1, 4096));
   app.add_option("--profile", options.profile, "apply one of the case's profiles; --set goes on top");
   app.add_option("--set", options.overrides, "key.path=value: override a key of the case")
       ->expected(1)

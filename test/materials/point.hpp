@@ -27,7 +27,7 @@ struct Point
   double opening() const { return state[1]; }
   double dissipation() const { return state[2]; }
   double mean() const { return (stress[0] + stress[1] + stress[2]) / 3; }
-  double shear() const { return mises_stress(stress[0], stress[1], stress[2], stress[3]) / std::sqrt(3.0); }
+  double shear() const { return std::sqrt(Deviator(stress[0], stress[1], stress[2], stress[3]).j2()); }
   /// In descending order.
   std::array<double, 3> principal() const
   {

@@ -23,7 +23,7 @@ struct Increment
 
 double mises(const State& s)
 {
-  return mises_stress(s.stress[0], s.stress[1], s.stress[2], s.stress[3]);
+  return Deviator(s.stress[0], s.stress[1], s.stress[2], s.stress[3]).mises();
 }
 double pressure(const State& s)
 {
