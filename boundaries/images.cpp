@@ -125,14 +125,15 @@ struct ImageSources
     const int parent = domain.place[image.parent];
     x[k] = domain.particles.x[parent] + image.offset.x();
     y[k] = domain.particles.y[parent] + image.offset.y();
-    mass[k] = image.mass;
+    mass[k] = inverse_weights * image.mass;
     Eigen::Matrix2d stress = image.stress;
     if (extra) stress += *extra;
+    const double factor = -inverse_slopes * domain.grid.inverse_spacing();
     for (int c = 0; c < 2; ++c)
     {
-      stress_x[k][c] = -stress(c, 0);
-      stress_y[k][c] = -stress(c, 1);
-      weight[k][c] = image.weight[c];
+      stress_x[k][c] = factor * stress(c, 0);
+      stress_y[k][c] = factor * stress(c, 1);
+      weight[k][c] = inverse_weights * image.weight[c];
     }
   }
 };
@@ -145,9 +146,10 @@ public:
 
   void add(int k, const ChunkStencils& s, const ImageSources& from)
   {
-    const Pairs w = twice(s.x_weight[k]), f_slope = w * everywhere(from.stress_y[k]);
-    const Pairs f_w = twice(s.x_slope[k]) * everywhere(from.stress_x[k]) + w * everywhere(from.weight[k]);
-    const Row m = from.mass[k] * load_row(s.x_weight[k]);
+    const Spline<Row> x = cubic_spline(s.x_fraction[k]);
+    const Pairs w = twice(x.weight), f_slope = w * everywhere(from.stress_y[k]);
+    const Pairs f_w = twice(x.slope) * everywhere(from.stress_x[k]) + w * everywhere(from.weight[k]);
+    const Row m = from.mass[k] * x.weight;
 #pragma GCC unroll 4
     for (int j = 0; j < 4; ++j)
     {

@@ -33,12 +33,17 @@ private:
   double spacing_, from_x_, from_y_;
 };
 
-/// Stencils of a chunk of particles: along x by particle, as a row of nodes wants them; along y by node, as
-/// broadcasts want them. Moments are weight times offset x_i - x in m.
+/// Products of the splines of both directions come with these factors, which are taken out particle by
+/// particle: weight and weight; slope and weight, over 1/h; moment and weight, over h.
+inline constexpr double inverse_weights = 1 / (spline_weight * spline_weight),
+                        inverse_slopes = 1 / (spline_slope * spline_weight);
+
+/// Stencils of a chunk of particles. Those along x are found when they are wanted, as a row of nodes in
+/// registers; those along y are kept, as broadcasts read them from memory.
 struct ChunkStencils
 {
-  alignas(64) double x_weight[chunk_size + 1][4], x_slope[chunk_size + 1][4], x_moment[chunk_size + 1][4];
-  alignas(64) double y_weight[4][chunk_size], y_slope[4][chunk_size], y_moment[4][chunk_size];
+  alignas(64) double x_fraction[chunk_size]; ///< of the cell
+  alignas(64) double y_weight[4][chunk_size], y_slope[4][chunk_size], y_moment[4][chunk_size]; ///< see Spline
   alignas(64) int node[chunk_size]; ///< first node in the tile
 
   /// Fills the stencils of `count` particles of a tile.

@@ -7,7 +7,8 @@ namespace
 /// dt |L| beyond which a step has lost the motion.
 constexpr double greatest_gradient = 1;
 
-/// What the grid tells the particles of a chunk, before scaling: sums over the nodes, as vectors (x, y).
+/// What the grid tells the particles of a chunk, times the factors of the stencils: sums over the nodes, as
+/// vectors (x, y).
 struct alignas(64) Readings
 {
   double velocity[chunk_size][2];                          ///< w v
@@ -46,11 +47,12 @@ void read(const ChunkStencils& s, int count, const PairTile& velocity, const Pai
         u_slope += s.y_slope[j][k] * row;
         if constexpr (flip) du += s.y_weight[j][k] * load_pairs(&change.value[2 * (node + j * tile_stride)]);
       }
-      const Pairs w = twice(s.x_weight[k]);
+      const Spline<Row> x = cubic_spline(s.x_fraction[k]);
+      const Pairs w = twice(x.weight);
       v[l] = w * u;
-      slope_x[l] = twice(s.x_slope[k]) * u;
+      slope_x[l] = twice(x.slope) * u;
       slope_y[l] = w * u_slope;
-      moment_x[l] = twice(s.x_moment[k]) * u;
+      moment_x[l] = twice(x.moment) * u;
       moment_y[l] = w * u_moment;
       if constexpr (flip) dv[l] = w * du;
     }
@@ -67,6 +69,16 @@ void read(const ChunkStencils& s, int count, const PairTile& velocity, const Pai
     sum(moment_y, out.moment_y);
     if constexpr (flip) sum(dv, out.change);
   }
+}
+
+/// Takes the factors of the stencils out of velocities. A rounded 1/36 would change the momentum step by
+/// step; 7/256 is exact, and the rounding of the rest, a 64th of the whole, is too small to matter.
+void take_out_weights(double (*values)[2], int count)
+{
+  constexpr double most = 7.0 / 256, rest = 1.0 / 2304;
+  static_assert(spline_weight == 6);
+  for (int k = 0; k < count; ++k)
+    for (int c = 0; c < 2; ++c) values[k][c] = values[k][c] * most + values[k][c] * rest;
 }
 
 /// Change of the nodes' velocities over the step, v* - P/m.
@@ -92,6 +104,7 @@ void read_change(const Grid& grid, const Neighbours& around, const PairTile& vel
 /// is replaced. Particles still move with v (METHODS section 1).
 void blend_velocity(const Particles& p, int begin, int count, double blend, Readings& from)
 {
+  take_out_weights(from.change, count);
   for (int k = 0; k < count; ++k)
   {
     double &ux = from.change[k][0], &uy = from.change[k][1];
@@ -104,7 +117,7 @@ void blend_velocity(const Particles& p, int begin, int count, double blend, Read
 void apply(Particles& p, int begin, int count, const Readings& from, double spacing, double dt, bool flip,
            VelocityGradients& L)
 {
-  const double inverse_D = 3 / (spacing * spacing);
+  const double affine = 3 * inverse_weights / spacing, slope = inverse_slopes / spacing; // D = h^2 / 3
   const auto* velocity = flip ? from.change : from.velocity;
   double* __restrict x = &p.x[begin], * __restrict y = &p.y[begin];
   double* __restrict vx = &p.velocity_x[begin], * __restrict vy = &p.velocity_y[begin];
@@ -119,17 +132,17 @@ void apply(Particles& p, int begin, int count, const Readings& from, double spac
   }
   for (int k = 0; k < count; ++k)
   {
-    cxx[k] = inverse_D * from.moment_x[k][0];
-    cyx[k] = inverse_D * from.moment_x[k][1];
-    cxy[k] = inverse_D * from.moment_y[k][0];
-    cyy[k] = inverse_D * from.moment_y[k][1];
+    cxx[k] = affine * from.moment_x[k][0];
+    cyx[k] = affine * from.moment_x[k][1];
+    cxy[k] = affine * from.moment_y[k][0];
+    cyy[k] = affine * from.moment_y[k][1];
   }
   for (int k = 0; k < count; ++k)
   {
-    L.xx[k] = from.slope_x[k][0];
-    L.yx[k] = from.slope_x[k][1];
-    L.xy[k] = from.slope_y[k][0];
-    L.yy[k] = from.slope_y[k][1];
+    L.xx[k] = slope * from.slope_x[k][0];
+    L.yx[k] = slope * from.slope_x[k][1];
+    L.xy[k] = slope * from.slope_y[k][0];
+    L.yy[k] = slope * from.slope_y[k][1];
   }
 }
 
@@ -147,28 +160,25 @@ double update_home(Domain& domain, const Home& home, double dt)
   VelocityGradients gradients;
   Particles& p = domain.particles;
   Extremes greatest;
-  for_each_chunk(home,
-                 [&](int material, int begin, int count)
-                 {
-                   stencils.find(tile, &p.x[begin], &p.y[begin], count);
-                   const Material& m = domain.materials[material];
-                   const auto state = [&](std::size_t k) {
-                     return k < m.state.size() ? &m.state[k][begin - domain.material_begin[material]]
-                                               : &p.x[begin];
-                   };
-                   const Ahead ahead(p, begin, &p.stress_zz[begin], state(0), state(1));
-                   if (flip)
-                   {
-                     read<true>(stencils, count, velocity, change, readings, ahead, greatest);
-                     blend_velocity(p, begin, count, domain.flip_blend, readings);
-                   }
-                   else
-                     read<false>(stencils, count, velocity, change, readings, ahead, greatest);
-                   apply(p, begin, count, readings, grid.spacing, dt, flip, gradients);
-                   update_particles(domain, material, begin, count, gradients, dt);
-                 });
-  if (greatest_of(greatest.gradient) * dt > greatest_gradient) return std::numeric_limits<double>::infinity();
-  return greatest_of(greatest.velocity) * dt / grid.spacing;
+  for_each_chunk(
+      home,
+      [&](int material, int begin, int count)
+      {
+        stencils.find(tile, &p.x[begin], &p.y[begin], count);
+        const Material& m = domain.materials[material];
+        const auto state = [&](std::size_t k)
+        { return k < m.state.size() ? &m.state[k][begin - domain.material_begin[material]] : &p.x[begin]; };
+        const Ahead ahead(p, begin, &p.stress_zz[begin], state(0), state(1));
+        (flip ? read<true> : read<false>)(stencils, count, velocity, change, readings, ahead, greatest);
+        take_out_weights(readings.velocity, count);
+        if (flip) blend_velocity(p, begin, count, domain.flip_blend, readings);
+        apply(p, begin, count, readings, grid.spacing, dt, flip, gradients);
+        update_particles(domain, material, begin, count, gradients, dt);
+      });
+  const double courant = dt / grid.spacing;
+  if (greatest_of(greatest.gradient) * inverse_slopes * courant > greatest_gradient)
+    return std::numeric_limits<double>::infinity();
+  return greatest_of(greatest.velocity) * inverse_weights * courant;
 }
 
 /// Moves a gauge with the velocity of the ground at its place; nodes without mass are left out of the mean.

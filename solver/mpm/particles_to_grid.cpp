@@ -11,26 +11,27 @@ struct Tiles
 };
 
 /// What the particles of a chunk bring to the nodes, as vectors (x, y) one after the other: momentum m v and
-/// m C column by column (eq. 2), internal force -V sigma column by column.
+/// m C column by column (eq. 2), internal force -V sigma column by column; less the factors of the stencils.
 struct Sources
 {
   alignas(64) double mass[chunk_size];
   alignas(64) double momentum[chunk_size][2], spread_x[chunk_size][2], spread_y[chunk_size][2];
   alignas(64) double force_x[chunk_size][2], force_y[chunk_size][2];
 
-  void gather(const Particles& p, int begin, int count, double mass_scale)
+  void gather(const Particles& p, int begin, int count, double mass_scale, double spacing)
   {
+    const double mass_factor = mass_scale * inverse_weights, volume_factor = inverse_slopes / spacing;
     for (int k = 0; k < count; ++k)
     {
       const int q = begin + k;
-      const double m = mass_scale * p.mass[q], V = p.volume[q];
+      const double m = mass_factor * p.mass[q], mh = spacing * m, V = volume_factor * p.volume[q];
       mass[k] = m;
       momentum[k][0] = m * p.velocity_x[q];
       momentum[k][1] = m * p.velocity_y[q];
-      spread_x[k][0] = m * p.affine_xx[q];
-      spread_x[k][1] = m * p.affine_yx[q];
-      spread_y[k][0] = m * p.affine_xy[q];
-      spread_y[k][1] = m * p.affine_yy[q];
+      spread_x[k][0] = mh * p.affine_xx[q];
+      spread_x[k][1] = mh * p.affine_yx[q];
+      spread_y[k][0] = mh * p.affine_xy[q];
+      spread_y[k][1] = mh * p.affine_yy[q];
       force_x[k][0] = -V * p.stress_xx[q];
       force_x[k][1] = force_y[k][0] = -V * p.stress_xy[q];
       force_y[k][1] = -V * p.stress_yy[q];
@@ -46,9 +47,9 @@ public:
 
   void add(const ChunkStencils& s, const Sources& from, int k)
   {
-    const Row wx = load_row(s.x_weight[k]);
-    const Pairs w = twice(s.x_weight[k]), slope = twice(s.x_slope[k]), moment = twice(s.x_moment[k]);
-    const Row m = from.mass[k] * wx;
+    const Spline<Row> x = cubic_spline(s.x_fraction[k]);
+    const Pairs w = twice(x.weight), slope = twice(x.slope), moment = twice(x.moment);
+    const Row m = from.mass[k] * x.weight;
     const Pairs p_w = w * everywhere(from.momentum[k]) + moment * everywhere(from.spread_x[k]);
     const Pairs p_moment = w * everywhere(from.spread_y[k]);
     const Pairs f_w = slope * everywhere(from.force_x[k]), f_slope = w * everywhere(from.force_y[k]);
@@ -116,7 +117,7 @@ void scatter_range(Domain& domain, const Home& home, const Range& range)
                    const double* none = &p.x[begin];
                    const Ahead ahead(p, begin, none, none, none);
                    stencils.find(tile, &p.x[begin], &p.y[begin], count);
-                   sources.gather(p, begin, count, mass_scale);
+                   sources.gather(p, begin, count, mass_scale, domain.grid.spacing);
                    scatter(stencils, sources, count, tiles, ahead);
                  });
   const double gx = domain.gravity_x / mass_scale, gy = domain.gravity_y / mass_scale;

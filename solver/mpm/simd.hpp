@@ -54,12 +54,7 @@ inline void store_pairs(double* to, const Pairs& pairs)
 {
   std::memcpy(to, &pairs, sizeof pairs);
 }
-/// Each of the four numbers at `from` for both components; four more numbers there are read and not used.
-inline Pairs twice(const double* from)
-{
-  const Pairs row = load_pairs(from);
-  return __builtin_shufflevector(row, row, 0, 0, 1, 1, 2, 2, 3, 3);
-}
+/// Each of the four numbers of a row for both components.
 inline Pairs twice(const Row& row)
 {
   return reinterpret_cast<Pairs>(
@@ -138,10 +133,6 @@ inline void store_pairs(double* to, const Pairs& pairs)
 inline Pairs twice(const Row& row)
 {
   return {__builtin_shufflevector(row, row, 0, 0, 1, 1), __builtin_shufflevector(row, row, 2, 2, 3, 3)};
-}
-inline Pairs twice(const double* from)
-{
-  return twice(load_row(from));
 }
 inline Pairs everywhere(const double* vector)
 {

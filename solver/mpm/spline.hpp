@@ -6,22 +6,36 @@
 
 namespace mpm
 {
-/// Cubic B-splines of the four nodes around a point at the fraction f of its cell, and their derivatives over
-/// the cell's width (METHODS section 1).
-struct CubicWeights
+/// Cubic B-splines of a node (double) or of the four around a point (Row), times what makes their
+/// coefficients whole numbers: rounded thirds and sixths would take a little momentum in every step.
+template <class Value>
+struct Spline
 {
-  double weight[4], slope[4];
+  Value weight; ///< 6 N
+  Value slope;  ///< 2 h dN/dx
+  Value moment; ///< 6 N (x_i - x) / h
 };
+inline constexpr double spline_weight = 6, spline_slope = 2;
 
-[[gnu::always_inline]] inline CubicWeights cubic_weights(double f)
+/// The splines at the fraction f of a cell (METHODS section 1), polynomials of g = f or 1 - f. `of` picks one
+/// coefficient or the row of all four. The outer weights are cubes, so that small ones keep their relative
+/// accuracy.
+template <class Value, class Pick>
+[[gnu::always_inline]] inline Spline<Value> cubic_spline(const Value& f, const Pick& of)
 {
-  const double g = 1 - f;
-  // The outer splines are cubes, so that small weights keep their relative accuracy; the third is what the
-  // others leave of one, so that no momentum is lost on average.
-  const double first = g * g * (g * (1.0 / 6)), last = f * f * (f * (1.0 / 6));
-  const double second = 2.0 / 3 + f * f * (0.5 * f - 1);
-  return {{first, second, (1 - second) - (first + last), last},
-          {-0.5 * g * g, f * (1.5 * f - 2), g * (2 - 1.5 * g), 0.5 * f * f}};
+  using Four = const double[4];
+  static constexpr Four side{-1, 1, -1, 1}, start{1, 0, 1, 0}, place{-1, 0, 1, 2};
+  static constexpr Four cubic{1, 3, 3, 1}, square{0, -6, -6, 0}, constant{0, 4, 4, 0};
+  static constexpr Four slope_square{-1, 3, -3, 1}, slope_linear{0, -4, 4, 0};
+  const Value g = f * of(side) + of(start);
+  const Value weight = g * g * (g * of(cubic) + of(square)) + of(constant);
+  return {weight, g * (g * of(slope_square) + of(slope_linear)), weight * (of(place) - f)};
+}
+
+/// Of all four nodes.
+[[gnu::always_inline]] inline Spline<Row> cubic_spline(double f)
+{
+  return cubic_spline(f + Row{}, [](const double* all) { return load_row(all); });
 }
 
 /// Stencil of a point in one direction: nodes first .. first + 3, weights N, derivatives dN/dx in 1/m and
@@ -36,8 +50,8 @@ struct Stencil
 inline Stencil cubic_stencil(double x, double spacing)
 {
   const double local = x / spacing, cell = std::floor(local), f = local - cell;
-  const CubicWeights w = cubic_weights(f);
-  return {static_cast<int>(cell) - 1, load_row(w.weight), load_row(w.slope) / spacing,
+  const Spline<Row> s = cubic_spline(f);
+  return {static_cast<int>(cell) - 1, s.weight / spline_weight, s.slope / (spline_slope * spacing),
           spacing * (Row{-1, 0, 1, 2} - f)};
 }
 } // namespace mpm
