@@ -85,18 +85,17 @@ void ImageBlocks::bind(const Domain& domain, const std::vector<Image>& images)
   std::sort(places.begin(), places.end());
   order_.clear();
   homes_.clear();
-  for (auto& colour : colours_) colour.clear();
+  colours_ = {};
   for (const Place& place : places)
   {
     const int at = static_cast<int>(order_.size());
     if (homes_.empty() || homes_.back().block != place.block)
-    {
-      colours_[place.block.colour()].push_back(static_cast<int>(homes_.size()));
       homes_.push_back({place.block, domain.grid.around(place.block), at, at});
-    }
     order_.push_back(place.image);
     homes_.back().end = at + 1;
   }
+  for (std::size_t k = 0; k < homes_.size(); ++k)
+    colours_[homes_[k].block.colour()].add(static_cast<int>(k), homes_[k].end - homes_[k].begin);
 }
 
 namespace
@@ -228,14 +227,12 @@ std::array<double, 2> ImageBlocks::add_forces(Domain& domain, const std::vector<
                                               const Extra& extra)
 {
   std::vector<std::array<double, 2>> parts(homes_.size());
-  for (const auto& colour : colours_)
-    parallel::for_each(static_cast<int>(colour.size()),
-                       [&](int k)
-                       {
-                         ImageHome& home = homes_[colour[k]];
-                         scatter(domain, home, images, extra);
-                         parts[colour[k]] = gather(domain.grid, home);
-                       });
+  parallel::for_each_in_turn(colours_,
+                             [&](int k)
+                             {
+                               scatter(domain, homes_[k], images, extra);
+                               parts[k] = gather(domain.grid, homes_[k]);
+                             });
   std::array<double, 2> sum{};
   for (const auto& part : parts)
   {
@@ -249,7 +246,7 @@ double ImageBlocks::work(const Domain& domain, double dt) const
 {
   const Grid& g = domain.grid;
   std::vector<double> parts(homes_.size());
-  parallel::for_each(static_cast<int>(homes_.size()),
+  parallel::for_each(static_cast<int>(homes_.size()), block_cost,
                      [&](int at)
                      {
                        const ImageHome& home = homes_[at];
@@ -282,15 +279,15 @@ void FrozenImages::add_forces(Domain& domain, double)
   const double ax = (resultant_[0][0] - now[0]) / mass_, ay = (resultant_[0][1] - now[1]) / mass_;
   correction_ = {ax, ay};
   Grid& g = domain.grid;
-  parallel::for_each(static_cast<int>(g.blocks.size()),
-                     [&](int block)
-                     {
-                       for (int k = block * block_nodes; k < (block + 1) * block_nodes; ++k)
-                       {
-                         g.force_x[k] += g.mass[k] * ax;
-                         g.force_y[k] += g.mass[k] * ay;
-                       }
-                     });
+  g.for_each_block(
+      [&](int block)
+      {
+        for (int k = block * block_nodes; k < (block + 1) * block_nodes; ++k)
+        {
+          g.force_x[k] += g.mass[k] * ax;
+          g.force_y[k] += g.mass[k] * ay;
+        }
+      });
 }
 
 void FrozenImages::measure_work(const Domain& domain, double dt, Energies& now) const

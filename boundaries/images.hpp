@@ -66,7 +66,7 @@ private:
   std::array<double, 2> gather(Grid& grid, const ImageHome& home) const;
   std::vector<int> order_;
   std::vector<ImageHome> homes_;
-  std::array<std::vector<int>, 4> colours_;
+  std::array<parallel::Group, 4> colours_;
 };
 
 /// The static reaction of walls that have gone. What the images lose in resultant when the body has moved

@@ -99,11 +99,14 @@ void rebuild(Domain& domain)
   const auto absorbing = [](const auto& boundary) { return boundary->absorbs(); };
   const bool dashpots = std::any_of(domain.boundaries.begin(), domain.boundaries.end(), absorbing);
   domain.grid.build(with_surroundings(domain), dashpots);
-  for (auto& colour : domain.colours) colour.clear();
+  domain.colours = {};
+  domain.shares = {};
   for (std::size_t k = 0; k < domain.homes.size(); ++k)
   {
-    domain.homes[k].around = domain.grid.around(domain.homes[k].block);
-    domain.colours[domain.homes[k].block.colour()].push_back(static_cast<int>(k));
+    Home& home = domain.homes[k];
+    home.around = domain.grid.around(home.block);
+    domain.colours[home.block.colour()].add(static_cast<int>(k), home.particles());
+    domain.shares.add(home.particles());
   }
   find_places(domain);
   for (const auto& boundary : domain.boundaries) boundary->bind(domain);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "solver/mpm/domain.hpp"
-#include "solver/mpm/parallel.hpp"
 #include "solver/mpm/spline.hpp"
 #include "solver/mpm/step.hpp"
 

@@ -3,6 +3,7 @@
 #include "materials/material.hpp"
 #include "solver/mpm/boundary.hpp"
 #include "solver/mpm/grid.hpp"
+#include "solver/mpm/parallel.hpp"
 #include "solver/mpm/particles.hpp"
 #include "solver/mpm/phases.hpp"
 
@@ -75,10 +76,11 @@ struct Domain
   bool balance_wanted = false;     ///< whether the step measures `balance`
   double time = 0;                 ///< at the start of the step, s
 
-  std::vector<Home> homes;                 ///< sorted by block
-  std::array<std::vector<int>, 4> colours; ///< homes that share no node within a colour
-  std::vector<int> place;                  ///< where a particle id stands now
-  double drift = 0;                        ///< cells that a particle may have moved since the last sort
+  std::vector<Home> homes;                ///< sorted by block
+  parallel::Shares shares;                ///< of the homes, by their particles
+  std::array<parallel::Group, 4> colours; ///< homes that share no node within a colour
+  std::vector<int> place;                 ///< where a particle id stands now
+  double drift = 0;                       ///< cells that a particle may have moved since the last sort
   Balance balance;
   Ledger ledger;
   PhaseTimes times;         ///< of all steps since the program began

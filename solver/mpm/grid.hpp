@@ -1,5 +1,6 @@
 #pragma once
 
+#include "solver/mpm/parallel.hpp"
 #include "solver/mpm/simd.hpp"
 
 #include <array>
@@ -15,6 +16,8 @@ inline constexpr int tile_margin = 2; ///< nodes of a tile left of its block: 1 
 inline constexpr int tile_nodes = block_cells + 2 * tile_margin + 1;
 inline constexpr int tile_stride = 16;
 inline constexpr int tile_size = tile_nodes * tile_stride;
+
+inline constexpr int block_cost = 4; ///< time that a loop over a block's nodes takes, in particles
 
 /// Place of a block: its cells are [8 x, 8 x + 8) by [8 y, 8 y + 8).
 struct BlockIndex
@@ -82,6 +85,12 @@ struct Grid
   /// Makes the grid of exactly these blocks (sorted, unique) and sizes the node fields.
   void build(std::vector<BlockIndex> wanted, bool with_dashpots);
   void clear(int block);
+  /// Calls f(place in blocks) for all blocks, on all threads.
+  template <class Function>
+  void for_each_block(const Function& f) const
+  {
+    parallel::for_each(static_cast<int>(blocks.size()), block_cost, f);
+  }
 };
 
 /// Block that owns cell or node i of a direction.

@@ -209,9 +209,7 @@ void move(Tracer& tracer, const Grid& grid, NodeFinder& find, double dt)
 void grid_to_particles(Domain& domain, double dt)
 {
   std::vector<double> moves(domain.homes.size());
-  parallel::for_each(
-      static_cast<int>(domain.homes.size()), [&](int k) { return domain.homes[k].particles(); },
-      [&](int k) { moves[k] = update_home(domain, domain.homes[k], dt); });
+  parallel::for_each(domain.shares, [&](int k) { moves[k] = update_home(domain, domain.homes[k], dt); });
   domain.greatest_move = moves.empty() ? 0 : *std::max_element(moves.begin(), moves.end());
   NodeFinder find(domain.grid);
   for (Tracer& tracer : domain.tracers) move(tracer, domain.grid, find, dt);

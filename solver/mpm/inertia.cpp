@@ -1,7 +1,6 @@
 #include "solver/mpm/inertia.hpp"
 
 #include "solver/mpm/domain.hpp"
-#include "solver/mpm/parallel.hpp"
 
 namespace mpm
 {
@@ -100,9 +99,8 @@ void correct_inertia(Domain& domain, double dt)
 {
   Grid& g = domain.grid;
   for (auto* field : {&g.change_x, &g.change_y, &g.linked_mass}) field->resize(g.nodes());
-  const int blocks = static_cast<int>(g.blocks.size());
-  parallel::for_each(blocks, [&](int k) { prepare(g, k, dt); });
-  parallel::for_each(blocks, [&](int k) { correct_block(g, k); });
+  g.for_each_block([&](int k) { prepare(g, k, dt); });
+  g.for_each_block([&](int k) { correct_block(g, k); });
   for (const auto& boundary : domain.boundaries) boundary->mirror_velocities(domain);
 }
 } // namespace mpm

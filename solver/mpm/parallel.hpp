@@ -3,6 +3,7 @@
 // places of their own, and maxima and sums are gathered by the caller in a fixed order.
 
 #include <algorithm>
+#include <array>
 #include <omp.h>
 #include <vector>
 
@@ -25,32 +26,95 @@ inline int processors()
   return omp_get_num_procs();
 }
 
-/// Calls f(i) for i in [0, count), in any order and on any thread; each thread takes one stretch, so that
-/// loops over the same things find them in the same core's caches. f must not throw.
-template <class Function>
-void for_each(int count, const Function& f)
+/// How items 0, 1, .. are shared out: each thread takes one stretch of them, of about the same cost, so that
+/// loops over the same things find them in the same core's caches.
+class Shares
 {
-#pragma omp parallel for schedule(static) if (count > 1)
-  for (int i = 0; i < count; ++i) f(i);
+public:
+  /// Takes in the next item; `cost` in particles, or what takes as long.
+  void add(long cost) { before_.push_back(before_.back() + cost); }
+  int size() const { return static_cast<int>(before_.size()) - 1; }
+  long cost() const { return before_.back(); }
+  /// First item of a thread's stretch; for thread = team the end.
+  int first(int thread, int team) const
+  {
+    if (thread == team) return size();
+    const auto at = std::lower_bound(before_.begin(), before_.end(), cost() * thread / team);
+    return std::min(static_cast<int>(at - before_.begin()), size());
+  }
+
+private:
+  std::vector<long> before_{0}; ///< cost of the items before each, and of all
+};
+
+/// Whether a loop is worth waking threads for, which takes as long as some hundred particles.
+inline bool pays(long cost)
+{
+  return cost > 200 && threads() > 1 && !omp_in_parallel();
 }
 
-/// The same, with stretches of about the same sum of cost(i), an integer.
-template <class Cost, class Function>
-void for_each(int count, const Cost& cost, const Function& f)
+/// Calls f(i) for all items. Items are taken in any order and on any thread. f must not throw.
+template <class Function>
+void for_each(const Shares& shares, const Function& f)
 {
-  std::vector<long> before{0}; // costs of the items before each
-  for (int i = 0; i < count; ++i) before.push_back(before.back() + cost(i));
-  const long total = before.back();
-#pragma omp parallel if (count > 1)
+  const auto stretch = [&](int thread, int team)
   {
-    const int thread = omp_get_thread_num(), team = omp_get_num_threads();
-    const auto first_of = [&](int t)
-    {
-      const auto at = std::lower_bound(before.begin(), before.end(), total * t / team);
-      return std::min(static_cast<int>(at - before.begin()), count);
-    };
-    const int end = thread + 1 == team ? count : first_of(thread + 1);
-    for (int i = first_of(thread); i < end; ++i) f(i);
+    const int end = shares.first(thread + 1, team);
+    for (int i = shares.first(thread, team); i < end; ++i) f(i);
+  };
+  if (!pays(shares.cost())) return stretch(0, 1);
+#pragma omp parallel
+  stretch(omp_get_thread_num(), omp_get_num_threads());
+}
+
+/// Calls f(i) for i in [0, count), each of which costs as much as `cost` particles.
+template <class Function>
+void for_each(int count, int cost, const Function& f)
+{
+  const auto stretch = [&](int thread, int team)
+  {
+    const int end = static_cast<int>(static_cast<long>(count) * (thread + 1) / team);
+    for (int i = static_cast<int>(static_cast<long>(count) * thread / team); i < end; ++i) f(i);
+  };
+  if (!pays(static_cast<long>(count) * cost)) return stretch(0, 1);
+#pragma omp parallel
+  stretch(omp_get_thread_num(), omp_get_num_threads());
+}
+
+/// Items that may be done at the same time.
+struct Group
+{
+  std::vector<int> items;
+  Shares shares;
+
+  void add(int item, long cost)
+  {
+    items.push_back(item);
+    shares.add(cost);
+  }
+};
+
+/// Calls f(i) for the items of one group after the other.
+template <std::size_t n, class Function>
+void for_each_in_turn(const std::array<Group, n>& groups, const Function& f)
+{
+  const auto stretch = [&](const Group& group, int thread, int team)
+  {
+    const int end = group.shares.first(thread + 1, team);
+    for (int i = group.shares.first(thread, team); i < end; ++i) f(group.items[i]);
+  };
+  long cost = 0;
+  for (const Group& group : groups) cost += group.shares.cost();
+  if (!pays(cost))
+  {
+    for (const Group& group : groups) stretch(group, 0, 1);
+    return;
+  }
+#pragma omp parallel
+  for (const Group& group : groups)
+  {
+    stretch(group, omp_get_thread_num(), omp_get_num_threads());
+#pragma omp barrier
   }
 }
 

@@ -140,11 +140,8 @@ void scatter_home(Domain& domain, const Home& home)
 
 void particles_to_grid(Domain& domain, double dt)
 {
-  parallel::for_each(static_cast<int>(domain.grid.blocks.size()), [&](int k) { domain.grid.clear(k); });
-  for (const auto& colour : domain.colours)
-    parallel::for_each(
-        static_cast<int>(colour.size()), [&](int k) { return domain.homes[colour[k]].particles(); },
-        [&](int k) { scatter_home(domain, domain.homes[colour[k]]); });
+  domain.grid.for_each_block([&](int k) { domain.grid.clear(k); });
+  parallel::for_each_in_turn(domain.colours, [&](int k) { scatter_home(domain, domain.homes[k]); });
   domain.times.lap(Phase::scatter);
   for (const auto& boundary : domain.boundaries) boundary->add_forces(domain, dt);
   domain.times.lap(Phase::boundaries);

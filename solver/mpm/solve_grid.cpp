@@ -1,5 +1,4 @@
 #include "solver/mpm/inertia.hpp"
-#include "solver/mpm/parallel.hpp"
 #include "solver/mpm/step.hpp"
 
 #include <cmath>
@@ -117,7 +116,7 @@ Balance balance_of(const Domain& domain, double cell_mass)
 {
   const int blocks = static_cast<int>(domain.grid.blocks.size());
   std::vector<double> parts(blocks);
-  parallel::for_each(blocks, [&](int k) { parts[k] = unbalanced_of(domain.grid, k, 0.01 * cell_mass); });
+  domain.grid.for_each_block([&](int k) { parts[k] = unbalanced_of(domain.grid, k, 0.01 * cell_mass); });
   Balance b;
   for (const double part : parts) b.unbalanced += part;
   for (const double mass : domain.particles.mass) b.total += 2 * mass;
@@ -137,19 +136,19 @@ void solve_grid(Domain& domain, double dt)
   grid.smallest_mass = 1e-14 * cell_mass;
   const Parameters a{dt, grid.smallest_mass, domain.damping};
   std::vector<StepWork> works(blocks);
-  parallel::for_each(blocks,
-                     [&](int k)
-                     {
-                       if (grid.dashpot_x.empty())
-                         solve_block<false>(grid, k, a);
-                       else
-                         solve_block<true>(grid, k, a);
-                       if (!domain.consistent_inertia) works[k] = work_of_block(grid, k, a, false);
-                     });
+  grid.for_each_block(
+      [&](int k)
+      {
+        if (grid.dashpot_x.empty())
+          solve_block<false>(grid, k, a);
+        else
+          solve_block<true>(grid, k, a);
+        if (!domain.consistent_inertia) works[k] = work_of_block(grid, k, a, false);
+      });
   if (domain.consistent_inertia)
   {
     correct_inertia(domain, dt);
-    parallel::for_each(blocks, [&](int k) { works[k] = work_of_block(grid, k, a, true); });
+    grid.for_each_block([&](int k) { works[k] = work_of_block(grid, k, a, true); });
   }
   domain.ledger.step = sum_of(works, dt);
   if (domain.balance_wanted) domain.balance = balance_of(domain, cell_mass);

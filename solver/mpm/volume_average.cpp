@@ -95,10 +95,9 @@ void average_volume_changes(Domain& domain, double dt)
     if (domain.materials[m].state_fields().empty()) continue;
     sums.mass.assign(domain.grid.nodes(), 0.0);
     sums.change.assign(domain.grid.nodes(), 0.0);
-    for (const auto& colour : domain.colours)
-      parallel::for_each(static_cast<int>(colour.size()),
-                         [&](int k) { add_home(domain, domain.homes[colour[k]], m, scratch, sums); });
-    parallel::for_each(static_cast<int>(domain.homes.size()),
+    parallel::for_each_in_turn(domain.colours,
+                               [&](int k) { add_home(domain, domain.homes[k], m, scratch, sums); });
+    parallel::for_each(domain.shares,
                        [&](int k) { apply_home(domain, domain.homes[k], m, scratch, sums, dt); });
   }
 }
