@@ -28,11 +28,11 @@ Key key_of(const Grid& grid, double x, double y)
 }
 
 template <class T>
-void permute(std::vector<T>& values, const std::vector<int>& order, int from, std::vector<T>& scratch)
+void permute(std::vector<T>& values, const std::vector<int>& order, int from)
 {
-  scratch.resize(order.size());
-  for (std::size_t k = 0; k < order.size(); ++k) scratch[k] = values[from + order[k]];
-  std::copy(scratch.begin(), scratch.end(), values.begin() + from);
+  const auto sorted = std::make_unique_for_overwrite<T[]>(order.size());
+  for (std::size_t k = 0; k < order.size(); ++k) sorted[k] = values[from + order[k]];
+  std::copy_n(sorted.get(), order.size(), values.begin() + from);
 }
 
 /// Sorts the particles of one material and appends its stretches, block by block.
@@ -46,11 +46,12 @@ void sort_material(Domain& domain, int material, std::vector<std::pair<BlockInde
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return keys[a] < keys[b]; });
 
-  std::vector<double> doubles;
-  std::vector<std::int64_t> integers;
-  for_each_array(p, [&](std::vector<double>& values) { permute(values, order, begin, doubles); });
-  permute(p.id, order, begin, integers);
-  for (auto& state : domain.materials[material].state) permute(state, order, 0, doubles);
+  std::vector<std::pair<std::vector<double>*, int>> arrays; // and where the material's particles begin
+  for_each_array(p, [&](std::vector<double>& values) { arrays.emplace_back(&values, begin); });
+  for (auto& state : domain.materials[material].state) arrays.emplace_back(&state, 0);
+  parallel::for_each(static_cast<int>(arrays.size()), 1 + count / 10,
+                     [&](int k) { permute(*arrays[k].first, order, arrays[k].second); });
+  permute(p.id, order, begin);
 
   for (int k = 0; k < count; ++k)
   {
