@@ -31,6 +31,13 @@ struct IncomingWave
   std::optional<GroundMotion> horizontal, vertical;
   Fade fade;
 
+  /// When nothing comes any more, s.
+  double end() const
+  {
+    const auto duration = [](const std::optional<GroundMotion>& motion)
+    { return motion ? motion->duration() : 0; };
+    return std::min(std::max(duration(horizontal), duration(vertical)), fade.end());
+  }
   std::array<double, 2> velocity(double t) const
   {
     const double share = fade.share(t);

@@ -276,8 +276,10 @@ void FrozenImages::add_forces(Domain& domain, double)
 {
   const std::array<double, 2> now = blocks_.add_forces(domain, images_, {});
   if (resultant_.empty()) resultant_.push_back(now);
-  const double ax = (resultant_[0][0] - now[0]) / mass_, ay = (resultant_[0][1] - now[1]) / mass_;
-  correction_ = {ax, ay};
+  // Sleeping ground hides its images: the correction stays what it was, as the ground does.
+  if (static_cast<int>(domain.homes.size()) == static_cast<int>(domain.awake.items.size()))
+    correction_[0] = {(resultant_[0][0] - now[0]) / mass_, (resultant_[0][1] - now[1]) / mass_};
+  const auto [ax, ay] = correction_[0];
   Grid& g = domain.grid;
   g.for_each_block(
       [&](int block)
@@ -293,7 +295,7 @@ void FrozenImages::add_forces(Domain& domain, double)
 void FrozenImages::measure_work(const Domain& domain, double dt, Energies& now) const
 {
   const auto [px, py] = domain.ledger.step.momentum;
-  now[Energy::reaction] += blocks_.work(domain, dt) + dt * (correction_[0] * px + correction_[1] * py);
+  now[Energy::reaction] += blocks_.work(domain, dt) + dt * (correction_[0][0] * px + correction_[0][1] * py);
 }
 
 void FrozenImages::visit_state(StateVisitor& visitor)
@@ -302,6 +304,9 @@ void FrozenImages::visit_state(StateVisitor& visitor)
   RecordVisitor<std::array<double, 2>> sum(visitor, "image_resultant_", resultant_);
   sum.each("x", "N/m", [](auto& force) -> double& { return force[0]; });
   sum.each("y", "N/m", [](auto& force) -> double& { return force[1]; });
+  RecordVisitor<std::array<double, 2>> correction(visitor, "image_correction_", correction_);
+  correction.each("x", "m/s2", [](auto& acceleration) -> double& { return acceleration[0]; });
+  correction.each("y", "m/s2", [](auto& acceleration) -> double& { return acceleration[1]; });
 }
 
 void visit_images(StateVisitor& visitor, std::string prefix, std::vector<Image>& images)

@@ -86,7 +86,8 @@ private:
   std::vector<Image> images_;
   std::vector<std::array<double, 2>> resultant_; ///< one entry, of the first step, N per m
   ImageBlocks blocks_;
-  double mass_ = 0;                    ///< of the domain, kg per m
-  std::array<double, 2> correction_{}; ///< uniform acceleration of the last step, m/s2
+  std::vector<std::array<double, 2>> correction_{
+      {}};          ///< one entry: uniform acceleration of the last step, m/s2
+  double mass_ = 0; ///< of the domain, kg per m
 };
 } // namespace mpm

@@ -72,10 +72,10 @@ struct Convergence
 /// `static`: gravity grows over `ramp` and the ground settles under local damping.
 struct StaticSettings
 {
-  double gravity = 9.81; ///< m/s2, downwards; 0: no gravity and nothing to settle
-  double ramp = 10;      ///< s
-  double damping = 0.75; ///< fraction of the unbalanced force, in [0, 1)
-  double safety = 0.7;   ///< Courant number: no wave has to be carried, only stability counts
+  double gravity = 9.81;    ///< m/s2, downwards; 0: no gravity and nothing to settle
+  double ramp = 10;         ///< s
+  double damping = 0.75;    ///< fraction of the unbalanced force, in [0, 1)
+  double safety = 0.7;      ///< Courant number: no wave has to be carried, only stability counts
   bool mass_scaling = true; ///< inertia that gives every material the slowest one's wave speed
   Convergence until;
 };
@@ -145,6 +145,7 @@ struct SeismicSettings
   double flip_blend = 0; ///< share of FLIP in the velocity update
   FlipEnds flip_ends = FlipEnds::on_slide;
   Inertia inertia = Inertia::lumped;
+  double rest_below = 0; ///< speed of ground that may be skipped after the motion, m/s; 0: none is, see Rest
   MotionSettings motion;
 };
 

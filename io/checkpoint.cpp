@@ -126,6 +126,8 @@ void save_domain(h5::Group& group, Domain& domain)
   visit_tracers(saver, domain.tracers);
   Saver ledger(group.create_group("energy"));
   visit_ledger(ledger, domain.ledger);
+  Saver rest(group.create_group("rest"));
+  visit_rest(rest, domain);
 }
 
 void load_particles(const h5::Group& group, Domain& domain)
@@ -177,5 +179,8 @@ void load_domain(const h5::Group& group, Domain& domain)
   Loader ledger(group.open_group("energy"));
   visit_ledger(ledger, domain.ledger);
   load_particles(group, domain);
+  Loader rest(group.open_group("rest"));
+  visit_rest(rest, domain);
+  bind_rest(domain);
 }
 } // namespace mpm

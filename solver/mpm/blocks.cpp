@@ -100,15 +100,8 @@ void rebuild(Domain& domain)
   const auto absorbing = [](const auto& boundary) { return boundary->absorbs(); };
   const bool dashpots = std::any_of(domain.boundaries.begin(), domain.boundaries.end(), absorbing);
   domain.grid.build(with_surroundings(domain), dashpots);
-  domain.colours = {};
-  domain.shares = {};
-  for (std::size_t k = 0; k < domain.homes.size(); ++k)
-  {
-    Home& home = domain.homes[k];
-    home.around = domain.grid.around(home.block);
-    domain.colours[home.block.colour()].add(static_cast<int>(k), home.particles());
-    domain.shares.add(home.particles());
-  }
+  for (Home& home : domain.homes) home.around = domain.grid.around(home.block);
+  bind_rest(domain);
   find_places(domain);
   for (const auto& boundary : domain.boundaries) boundary->bind(domain);
 }
@@ -120,10 +113,17 @@ void sort_particles(Domain& domain)
     sort_material(domain, static_cast<int>(k), stretches);
   std::stable_sort(stretches.begin(), stretches.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
+  const std::vector<Home> before = std::move(domain.homes);
   domain.homes.clear();
   for (const auto& [block, range] : stretches)
   {
-    if (domain.homes.empty() || domain.homes.back().block != block) domain.homes.push_back({block, {}, {}});
+    if (domain.homes.empty() || domain.homes.back().block != block)
+    {
+      const auto by_block = [](const Home& home, BlockIndex wanted) { return home.block < wanted; };
+      const auto old = std::lower_bound(before.begin(), before.end(), block, by_block);
+      const bool known = old != before.end() && old->block == block;
+      domain.homes.push_back(known ? Home{block, {}, {}, old->asleep, old->greatest} : Home{block, {}, {}});
+    }
     domain.homes.back().ranges.push_back(range);
   }
   domain.drift = 0;

@@ -6,7 +6,9 @@
 #include "solver/mpm/parallel.hpp"
 #include "solver/mpm/particles.hpp"
 #include "solver/mpm/phases.hpp"
+#include "solver/mpm/rest.hpp"
 
+#include <limits>
 #include <memory>
 #include <stdexcept>
 
@@ -25,6 +27,8 @@ struct Home
   BlockIndex block;
   Neighbours around;
   std::vector<Range> ranges;
+  bool asleep = false;                                       ///< see Rest
+  double greatest = std::numeric_limits<double>::infinity(); ///< speed in the time that Rest watches, m/s
 
   int particles() const
   {
@@ -77,10 +81,12 @@ struct Domain
   double time = 0;                 ///< at the start of the step, s
 
   std::vector<Home> homes;                ///< sorted by block
-  parallel::Shares shares;                ///< of the homes, by their particles
-  std::array<parallel::Group, 4> colours; ///< homes that share no node within a colour
-  std::vector<int> place;                 ///< where a particle id stands now
-  double drift = 0;                       ///< cells that a particle may have moved since the last sort
+  parallel::Group awake;                  ///< homes that take part in steps
+  std::array<parallel::Group, 4> colours; ///< the same, by colour; those of one share no node
+  std::vector<int> home_in;               ///< place of a grid block's home, -1 if it has none
+  Rest rest;
+  std::vector<int> place; ///< where a particle id stands now
+  double drift = 0;       ///< cells that a particle may have moved since the last sort
   Balance balance;
   Ledger ledger;
   PhaseTimes times;         ///< of all steps since the program began

@@ -182,6 +182,7 @@ double update_home(Domain& domain, const Home& home, double dt)
 }
 
 /// Moves a gauge with the velocity of the ground at its place; nodes without mass are left out of the mean.
+/// Where there is none, or it sleeps, the gauge stands still.
 void move(Tracer& tracer, const Grid& grid, NodeFinder& find, double dt)
 {
   const Stencil sx = cubic_stencil(tracer.x - grid.origin_x, grid.spacing);
@@ -198,9 +199,8 @@ void move(Tracer& tracer, const Grid& grid, NodeFinder& find, double dt)
       vx += w * grid.velocity_x[node];
       vy += w * grid.velocity_y[node];
     }
-  if (weight == 0) return;
-  tracer.velocity_x = vx / weight;
-  tracer.velocity_y = vy / weight;
+  tracer.velocity_x = weight > 0 ? vx / weight : 0;
+  tracer.velocity_y = weight > 0 ? vy / weight : 0;
   tracer.x += dt * tracer.velocity_x;
   tracer.y += dt * tracer.velocity_y;
 }
@@ -209,8 +209,11 @@ void move(Tracer& tracer, const Grid& grid, NodeFinder& find, double dt)
 void grid_to_particles(Domain& domain, double dt)
 {
   std::vector<double> moves(domain.homes.size());
-  parallel::for_each(domain.shares, [&](int k) { moves[k] = update_home(domain, domain.homes[k], dt); });
+  parallel::for_each(domain.awake, [&](int k) { moves[k] = update_home(domain, domain.homes[k], dt); });
   domain.greatest_move = moves.empty() ? 0 : *std::max_element(moves.begin(), moves.end());
+  std::vector<double> speeds(moves);
+  for (double& speed : speeds) speed *= domain.grid.spacing / dt;
+  watch_rest(domain, speeds, dt);
   NodeFinder find(domain.grid);
   for (Tracer& tracer : domain.tracers) move(tracer, domain.grid, find, dt);
 }

@@ -53,18 +53,33 @@ inline bool pays(long cost)
   return cost > 200 && threads() > 1 && !omp_in_parallel();
 }
 
-/// Calls f(i) for all items. Items are taken in any order and on any thread. f must not throw.
-template <class Function>
-void for_each(const Shares& shares, const Function& f)
+/// Items that may be done at the same time.
+struct Group
 {
-  const auto stretch = [&](int thread, int team)
+  std::vector<int> items;
+  Shares shares;
+
+  void add(int item, long cost)
+  {
+    items.push_back(item);
+    shares.add(cost);
+  }
+  /// Calls f(i) for the items of one thread of a team.
+  template <class Function>
+  void stretch(int thread, int team, const Function& f) const
   {
     const int end = shares.first(thread + 1, team);
-    for (int i = shares.first(thread, team); i < end; ++i) f(i);
-  };
-  if (!pays(shares.cost())) return stretch(0, 1);
+    for (int i = shares.first(thread, team); i < end; ++i) f(items[i]);
+  }
+};
+
+/// Calls f(i) for all items, in any order and on any thread. f must not throw.
+template <class Function>
+void for_each(const Group& group, const Function& f)
+{
+  if (!pays(group.shares.cost())) return group.stretch(0, 1, f);
 #pragma omp parallel
-  stretch(omp_get_thread_num(), omp_get_num_threads());
+  group.stretch(omp_get_thread_num(), omp_get_num_threads(), f);
 }
 
 /// Calls f(i) for i in [0, count), each of which costs as much as `cost` particles.
@@ -81,39 +96,21 @@ void for_each(int count, int cost, const Function& f)
   stretch(omp_get_thread_num(), omp_get_num_threads());
 }
 
-/// Items that may be done at the same time.
-struct Group
-{
-  std::vector<int> items;
-  Shares shares;
-
-  void add(int item, long cost)
-  {
-    items.push_back(item);
-    shares.add(cost);
-  }
-};
-
 /// Calls f(i) for the items of one group after the other.
 template <std::size_t n, class Function>
 void for_each_in_turn(const std::array<Group, n>& groups, const Function& f)
 {
-  const auto stretch = [&](const Group& group, int thread, int team)
-  {
-    const int end = group.shares.first(thread + 1, team);
-    for (int i = group.shares.first(thread, team); i < end; ++i) f(group.items[i]);
-  };
   long cost = 0;
   for (const Group& group : groups) cost += group.shares.cost();
   if (!pays(cost))
   {
-    for (const Group& group : groups) stretch(group, 0, 1);
+    for (const Group& group : groups) group.stretch(0, 1, f);
     return;
   }
 #pragma omp parallel
   for (const Group& group : groups)
   {
-    stretch(group, omp_get_thread_num(), omp_get_num_threads());
+    group.stretch(omp_get_thread_num(), omp_get_num_threads(), f);
 #pragma omp barrier
   }
 }

@@ -128,6 +128,7 @@ Balance balance_of(const Domain& domain, double cell_mass)
 void solve_grid(Domain& domain, double dt)
 {
   for (const auto& boundary : domain.boundaries) boundary->constrain(domain);
+  hold_resting_nodes(domain);
   Grid& grid = domain.grid;
   const int blocks = static_cast<int>(grid.blocks.size());
   double density = 0;
@@ -148,6 +149,7 @@ void solve_grid(Domain& domain, double dt)
   if (domain.consistent_inertia)
   {
     correct_inertia(domain, dt);
+    hold_resting_nodes(domain);
     grid.for_each_block([&](int k) { works[k] = work_of_block(grid, k, a, true); });
   }
   domain.ledger.step = sum_of(works, dt);

@@ -97,7 +97,7 @@ void average_volume_changes(Domain& domain, double dt)
     sums.change.assign(domain.grid.nodes(), 0.0);
     parallel::for_each_in_turn(domain.colours,
                                [&](int k) { add_home(domain, domain.homes[k], m, scratch, sums); });
-    parallel::for_each(domain.shares,
+    parallel::for_each(domain.awake,
                        [&](int k) { apply_home(domain, domain.homes[k], m, scratch, sums, dt); });
   }
 }

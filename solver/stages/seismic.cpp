@@ -200,6 +200,7 @@ private:
         check_particles(*model_.main, model_.reference_volume);
         energy_.check(clock.time());
         check_step(session_, model_, session_.scene.safety, clock);
+        let_rest(clock.time());
       }
       if (progress.due()) progress.update(moment());
       if (session_.must_stop() || session_.checkpoint_due())
@@ -214,11 +215,23 @@ private:
     progress.finish(moment());
     report_boundaries(session_, model_);
     report_end();
+    report_rest(clock);
     save("final.h5", clock);
     energy_.report();
     session_.folder->prune(0);
     session_.finish("seismic", exit_code::done, model_, clock, summary());
     return exit_code::done;
+  }
+
+  /// Once the motion is over and the free field stands still, ground at rest may be skipped.
+  void let_rest(double time)
+  {
+    const double below = session_.scene.seismic.rest_below;
+    const auto [vx, vy] = motion_.wave->velocity(time);
+    bool still = time >= motion_.wave->end() && vx == 0 && vy == 0;
+    for (const FreeFieldColumn* column : {model_.left.get(), model_.right.get()})
+      still &= !column || greatest_speed(*column->domain) < below;
+    allow_rest(*model_.main, still ? below : 0);
   }
 
   bool ends_self_driven() const { return session_.scene.seismic.motion.end == MotionEnd::self_driven; }
@@ -248,6 +261,16 @@ private:
       session_.log.info("the slide never was self-driven: the whole motion was applied");
   }
 
+  void report_rest(const Clock& clock) const
+  {
+    const Domain& main = *model_.main;
+    if (main.rest.skipped > 0)
+      session_.log.info(
+          "ground at rest: {:.1f} % of all particle-steps were skipped, {:.0f} % of the last one",
+          100.0 * main.rest.skipped / (double(clock.step) * main.particles.size()),
+          100.0 - 100.0 * main.awake.shares.cost() / main.particles.size());
+  }
+
   void save(const std::string& name, const Clock& clock)
   {
     energy_.check(clock.time()); // the last checkpoint must be a good one
@@ -270,6 +293,7 @@ private:
     nlohmann::json result = observer_.summary();
     result["energy"] = energy_.summary();
     result["motion"] = motion_.title;
+    result["skipped_particle_steps"] = model_.main->rest.skipped;
     const double end = motion_.wave->fade.end();
     result["motion_ended"] = std::isfinite(end) ? nlohmann::json(end) : nlohmann::json();
     for (const auto& [key, value] : motion_.identity) result["digests"][key] = value;

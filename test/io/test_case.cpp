@@ -440,6 +440,8 @@ TEST_CASE("Interfaces are sharp and inertia is lumped unless the case says other
   CHECK(usual.grid.interfaces == Interfaces::sharp);
   CHECK(usual.seismic.inertia == Inertia::lumped);
   CHECK(load(shaken + "  inertia: consistent\n").seismic.inertia == Inertia::consistent);
+  CHECK(usual.seismic.rest_below == 0);
+  CHECK(load(shaken + "  rest_below: 1 mm/s\n").seismic.rest_below == Approx(1e-3));
   CHECK(load(replaced(shaken, "grid: {", "grid: {interfaces: averaged, ")).grid.interfaces ==
         Interfaces::averaged);
   CHECK_THAT(refusal(shaken + "  inertia: lumpd\n"),

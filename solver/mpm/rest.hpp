@@ -1,0 +1,46 @@
+#pragma once
+
+#include "solver/mpm/state.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace mpm
+{
+struct Domain;
+
+/// Ground at rest, which steps leave alone until something moves beside it.
+///
+/// A block falls asleep when for a second nothing in it and in the eight blocks around it has moved faster
+/// than `below`; its particles then stand still. It wakes in the step in which anything in those eight moves
+/// faster. Nodes that sleeping and waking ground share are held, so that sleeping ground is a wall, which
+/// meets waves of no more than `below`: it keeps displacements of up to `below` times the time asleep and
+/// reflects speeds of up to `below`. Forces that sources outside the ground bring do not wake it: rest is to
+/// be allowed when they have ended.
+struct Rest
+{
+  static constexpr double window = 1; ///< s
+  double below = 0;                   ///< m/s; 0: nothing rests
+  double watched = 0;                 ///< time since ground last fell asleep, s
+  std::int64_t skipped = 0;           ///< particle-steps
+  std::vector<int> held;              ///< nodes
+};
+
+/// Lets ground slower than `below` (m/s) fall asleep from now on; 0 wakes all and lets none.
+void allow_rest(Domain& domain, double below);
+
+/// Finds the nodes to be held and the homes that are awake; after a change of either.
+void bind_rest(Domain& domain);
+
+/// Takes momentum, forces and velocity from the nodes that are held: before the equation of motion, and after
+/// a correction of the velocities node by node.
+void hold_resting_nodes(Domain& domain);
+
+/// After a step of dt s: wakes what has something moving beside it, lets fall asleep what has come to rest.
+/// `speeds` are the greatest of each home's particles, m/s.
+void watch_rest(Domain& domain, std::span<const double> speeds, double dt);
+
+/// Saves or loads what rests, of homes in place.
+void visit_rest(StateVisitor& visitor, Domain& domain);
+} // namespace mpm
