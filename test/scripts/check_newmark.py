@@ -8,6 +8,7 @@ from scipy.optimize import brentq
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts"))
 import slip_circle
+from checking import report
 from rigid_block import GRAVITY, Block, constant, exponential, linear, slide
 
 EPSILON = np.finfo(float).eps
@@ -161,15 +162,5 @@ def checks():
     yield "a mirrored slope", mirrored()
 
 
-def main():
-    failed = passed = 0
-    for name, (error, tolerance) in checks():
-        good = error <= tolerance
-        passed, failed = passed + good, failed + (not good)
-        print(f"{'ok  ' if good else 'FAIL'} {name}: error {error:.2e}, allowed {tolerance:.2e}")
-    print(f"{passed} passed, {failed} failed")
-    return 1 if failed else 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(report(checks()))

@@ -7,6 +7,7 @@ from scipy.signal import lsim
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts"))
 import spectrum
+from checking import report
 
 DAMPING = 0.05
 EPSILON = np.finfo(float).eps
@@ -115,15 +116,5 @@ def checks():
     yield "acceleration from uneven velocity samples", slope_of_velocity()
 
 
-def main():
-    failed = passed = 0
-    for name, (error, tolerance) in checks():
-        good = error <= tolerance
-        passed, failed = passed + good, failed + (not good)
-        print(f"{'ok  ' if good else 'FAIL'} {name}: error {error:.2e}, allowed {tolerance:.2e}")
-    print(f"{passed} passed, {failed} failed")
-    return 1 if failed else 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(report(checks()))

@@ -11,6 +11,7 @@ import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts"))
 import resolve_motion
 import vary
+from checking import report
 
 
 def write_history(folder):
@@ -65,16 +66,13 @@ def turned():
     return np.abs(resolve_motion.resolve(east, north, azimuth) - motion).max(), 4 * np.finfo(float).eps
 
 
-def main():
-    """Runs all checks; returns the exit code."""
-    failed = 0
-    for check in (measured, never, cut, turned):
-        error, bound = check()
-        print(f"{'passed' if error <= bound else 'FAILED'}  {check.__name__}: {error:.3g}, bound {bound:.3g}")
-        failed += error > bound
-    print(f"{4 - failed} passed, {failed} failed")
-    return 1 if failed else 0
+def checks():
+    """Name and (error, tolerance) of every check."""
+    yield "the measures of a slide", measured()
+    yield "a toe that does not get so far", never()
+    yield "a record cut", cut()
+    yield "east and north turned back", turned()
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(report(checks()))
