@@ -1,7 +1,7 @@
 #pragma once
 // Result frames: one small file each, which ParaView draws and h5py reads under plain names.
 
-#include "io/hdf5.hpp"
+#include "io/files.hpp"
 
 #include <cstdint>
 #include <filesystem>

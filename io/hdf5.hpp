@@ -1,6 +1,6 @@
 #pragma once
 // A thin layer over the HDF5 C API: handles close themselves, every failed call throws `Error`, every
-// numeric dataset carries `units` and a Fletcher-32 checksum. Files are written whole or not at all.
+// numeric dataset carries `units` and a Fletcher-32 checksum.
 
 #include "io/error.hpp"
 
@@ -10,16 +10,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-namespace mpm
-{
-namespace h5
+namespace mpm::h5
 {
 /// An HDF5 identifier that closes itself.
 class Handle
@@ -150,32 +147,4 @@ private:
   File(Handle file, Handle root, std::string name);
   Handle file_;
 };
-} // namespace h5
-
-/// Who wrote a file: the root attributes that all our files share.
-struct Provenance
-{
-  std::string program;
-  std::string version;
-  std::string git;
-  std::string build;
-  std::string command;
-  std::string created; ///< UTC, ISO 8601
-  std::string host;
-};
-
-std::string utc_now();
-std::string host_name();
-/// Writes the attributes of `Provenance`, `schema` ("seismpm-checkpoint/1") and the sign convention.
-void write_provenance(h5::Group& root, const Provenance&, std::string_view schema);
-
-/// Calls `fill` with a new file and puts the result at `path`, synced, with `complete` = 1 written last.
-/// On failure the file that was there before stays and `Error` write_failed is thrown.
-/// Needs memory for the whole file: so that a full disk is met by one plain write, with its reason.
-void write_file_atomically(const std::filesystem::path&, const std::function<void(h5::File&)>& fill);
-void write_text_atomically(const std::filesystem::path&, std::string_view text);
-
-/// Opens a file that `write_file_atomically` wrote. `Error`: input_missing when it is missing or unreadable,
-/// bad_input when it is not HDF5, cut short or not complete.
-h5::File open_complete(const std::filesystem::path&);
-} // namespace mpm
+} // namespace mpm::h5

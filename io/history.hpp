@@ -2,7 +2,7 @@
 // Time series of a run: gauges, free field, energies, slide. Held in memory and written whole, so that
 // rows cannot be torn; kept in the checkpoint, so that a resumed run goes on without a gap or a double.
 
-#include "io/hdf5.hpp"
+#include "io/files.hpp"
 
 #include <cstddef>
 #include <filesystem>

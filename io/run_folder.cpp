@@ -1,5 +1,5 @@
 #include "io/run_folder.hpp"
-#include "io/hdf5.hpp"
+#include "io/files.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "io/case.hpp"
-#include "io/hdf5.hpp"
+#include "io/files.hpp"
 #include "io/log.hpp"
 #include "io/run_folder.hpp"
 #include "solver/stages/model.hpp"

@@ -1,4 +1,4 @@
-#include "io/hdf5.hpp"
+#include "io/files.hpp"
 #include "test/temporary_folder.hpp"
 
 #include <catch2/catch.hpp>
