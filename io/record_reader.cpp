@@ -1,38 +1,19 @@
-#include "io/record_reader.hpp"
+#include "io/record_units.hpp"
 
 #include "io/error.hpp"
 
 #include <algorithm>
 #include <array>
-#include <cctype>
-#include <charconv>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <vector>
 
 namespace mpm
 {
+using namespace records;
+
 namespace
 {
-struct Unit
-{
-  std::string_view name;
-  Quantity quantity;
-  double si;
-};
-constexpr std::array units{
-    Unit{"g", Quantity::acceleration, standard_gravity},
-    Unit{"gal", Quantity::acceleration, 0.01},
-    Unit{"cm/s2", Quantity::acceleration, 0.01},
-    Unit{"m/s2", Quantity::acceleration, 1},
-    Unit{"cm/s", Quantity::velocity, 0.01},
-    Unit{"m/s", Quantity::velocity, 1},
-    Unit{"cm", Quantity::displacement, 0.01},
-    Unit{"m", Quantity::displacement, 1},
-};
-
 /// An archive's format that is not read, told by two marks (lower case) near the start of the file.
 struct Foreign
 {
@@ -50,245 +31,6 @@ constexpr std::array foreign{
     Foreign{"an HTML page", "<html", ""},
 };
 
-struct Line
-{
-  std::string_view text; ///< without blanks at its ends
-  int number;
-};
-
-std::string lower(std::string_view text)
-{
-  std::string out(text);
-  std::ranges::transform(out, out.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-  return out;
-}
-
-bool is_blank(char c)
-{
-  return c == ' ' || c == '\t' || c == '\v' || c == '\f';
-}
-bool is_digit(char c)
-{
-  return c >= '0' && c <= '9';
-}
-bool is_letter(char c)
-{
-  return std::isalpha(static_cast<unsigned char>(c)) != 0;
-}
-
-[[noreturn]] void refuse(const RecordSource& source, const std::string& what)
-{
-  throw Error(exit_code::bad_input, source.file + ": " + what);
-}
-
-[[noreturn]] void refuse(const RecordSource& source, const Line& line, const std::string& what)
-{
-  throw Error(exit_code::bad_input, source.file + ":" + std::to_string(line.number) + ": " + what);
-}
-
-std::string quoted(std::string_view text)
-{
-  return "'" + std::string(text.substr(0, 60)) + (text.size() > 60 ? "...'" : "'");
-}
-
-std::string number(double value)
-{
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
-}
-
-/// Non-empty lines, ended by LF, CR LF or CR.
-std::vector<Line> lines_of(std::string_view text)
-{
-  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
-  std::vector<Line> lines;
-  for (int number = 1; !text.empty(); ++number)
-  {
-    const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
-    std::string_view line = text.substr(0, end);
-    text.remove_prefix(std::min(text.size(), end + (text.substr(end).starts_with("\r\n") ? 2 : 1)));
-    while (!line.empty() && is_blank(line.front())) line.remove_prefix(1);
-    while (!line.empty() && is_blank(line.back())) line.remove_suffix(1);
-    if (!line.empty()) lines.push_back({line, number});
-  }
-  return lines;
-}
-
-/// Takes one number off the front: leading +, no leading 0, D exponents. Empty if there is none, or if it
-/// runs into something other than a blank, a separator, a bracket or the sign of the next number.
-std::optional<double> take_number(std::string_view& text)
-{
-  std::size_t end = text.starts_with('+') || text.starts_with('-') ? 1 : 0;
-  const auto digits = [&]
-  {
-    const std::size_t start = end;
-    while (end < text.size() && is_digit(text[end])) ++end;
-    return end - start;
-  };
-  std::size_t mantissa = digits();
-  if (end < text.size() && text[end] == '.') mantissa += (++end, digits());
-  if (mantissa == 0) return {};
-  std::string token(text.substr(0, end));
-  if (end < text.size() && std::string_view("eEdD").find(text[end]) != std::string_view::npos)
-  {
-    const std::size_t start = ++end;
-    if (end < text.size() && (text[end] == '+' || text[end] == '-')) ++end;
-    if (digits() == 0) return {};
-    token += 'e';
-    token += text.substr(start, end - start);
-  }
-  if (end < text.size() && !is_blank(text[end]) &&
-      std::string_view("+-,;)").find(text[end]) == std::string_view::npos)
-    return {};
-  const char* first = token.data() + (token.front() == '+' ? 1 : 0);
-  const char* const last = token.data() + token.size();
-  double value = 0;
-  const auto [stop, status] = std::from_chars(first, last, value);
-  const bool underflow = status == std::errc::result_out_of_range && token.find("e-") != std::string::npos;
-  if (stop != last || (status != std::errc{} && !underflow)) return {};
-  text.remove_prefix(end);
-  return underflow ? 0. : value;
-}
-
-void skip_separator(std::string_view& text)
-{
-  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
-  if (!text.empty() && (text.front() == ',' || text.front() == ';')) text.remove_prefix(1);
-  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
-}
-
-/// All numbers of a line; empty if anything in it is not a number.
-std::optional<std::vector<double>> numbers_in(std::string_view text)
-{
-  std::vector<double> values;
-  while (!text.empty())
-  {
-    const auto value = take_number(text);
-    if (!value) return {};
-    values.push_back(*value);
-    skip_separator(text);
-  }
-  return values;
-}
-
-std::vector<double> numbers_at(const RecordSource& source, const Line& line)
-{
-  if (auto values = numbers_in(line.text)) return std::move(*values);
-  refuse(source, line, "expected numbers and found " + quoted(line.text) + "; mend or remove the line");
-}
-
-/// A unit as written in a header ("CM/SEC**2", "(g)", "m/s/s") in the spelling of the table.
-const Unit* unit_named(std::string_view text)
-{
-  std::string name = lower(text);
-  const auto replace = [&](std::string_view from, std::string_view to)
-  {
-    for (std::size_t at = 0; (at = name.find(from, at)) != std::string::npos; at += to.size())
-      name.replace(at, from.size(), to);
-  };
-  replace("sec", "s");
-  replace("**", "");
-  replace("^", "");
-  replace("/s/s", "/s2");
-  const auto found = std::ranges::find(units, std::string_view(name), &Unit::name);
-  return found == units.end() ? nullptr : &*found;
-}
-
-/// What the words of a header say; line.number 0 where they say nothing.
-struct Said
-{
-  const Unit* unit = nullptr;
-  std::optional<Quantity> quantity;
-  Line line{{}, 0};
-};
-
-std::optional<Quantity> quantity_in(const std::string& lower_line)
-{
-  if (lower_line.find("acceleration") != std::string::npos) return Quantity::acceleration;
-  if (lower_line.find("velocity") != std::string::npos) return Quantity::velocity;
-  if (lower_line.find("displacement") != std::string::npos) return Quantity::displacement;
-  return {};
-}
-
-/// "ACCELERATION TIME SERIES IN UNITS OF G. FILTER POINTS: ...", "The units are (g)".
-Said said_by_units_line(const std::vector<Line>& header)
-{
-  for (const Line& line : header)
-  {
-    const std::string text = lower(line.text);
-    std::size_t at = text.find("units");
-    if (at == std::string::npos) continue;
-    at += 5;
-    const auto skip_blanks = [&]
-    {
-      while (at < text.size() && std::string_view(" \t:=([").find(text[at]) != std::string_view::npos) ++at;
-    };
-    skip_blanks();
-    if (text.compare(at, 3, "of ") == 0) at += 3;
-    if (text.compare(at, 4, "are ") == 0) at += 4;
-    skip_blanks();
-    const std::size_t end = std::min(text.find_first_of(" \t.,;)]", at), text.size());
-    return {unit_named(std::string_view(text).substr(at, end - at)), quantity_in(text), line};
-  }
-  return {};
-}
-
-/// "time (s), acceleration (m/s2)": the last bracket that holds a unit.
-Said said_by_column_header(const Line& line)
-{
-  Said said{nullptr, quantity_in(lower(line.text)), line};
-  for (std::size_t at = 0; (at = line.text.find_first_of("([", at)) != std::string_view::npos; ++at)
-  {
-    const std::size_t end = line.text.find_first_of(")]", at);
-    if (end == std::string_view::npos) break;
-    if (const Unit* unit = unit_named(line.text.substr(at + 1, end - at - 1))) said.unit = unit;
-  }
-  return said;
-}
-
-/// Unit of a PEER file by its extension.
-const Unit* unit_by_extension(const std::string& file)
-{
-  const std::string extension = lower(std::filesystem::path(file).extension().string());
-  if (extension == ".at2") return unit_named("g");
-  if (extension == ".vt2") return unit_named("cm/s");
-  if (extension == ".dt2") return unit_named("cm");
-  return nullptr;
-}
-
-/// The unit to use, once case, header and extension have been found to agree.
-Unit agreed_unit(const RecordSource& source, const Said& said, const Unit* by_extension)
-{
-  const Unit* const given = source.unit.empty() ? nullptr : unit_named(source.unit);
-  if (!source.unit.empty() && !given)
-    refuse(source, "unknown unit '" + source.unit + "'; use g, gal, m/s2, cm/s2, m/s, cm/s, m or cm");
-  if (said.unit && said.quantity && said.unit->quantity != *said.quantity)
-    refuse(source, said.line,
-           "the header calls it " + std::string(name_of(*said.quantity)) + " in " +
-               std::string(said.unit->name) + ", which do not go together; mend the header");
-  if (said.unit && by_extension && said.unit->quantity != by_extension->quantity)
-    refuse(source, said.line,
-           "the header says " + std::string(said.unit->name) + ", the file's extension " +
-               std::string(name_of(by_extension->quantity)) + "; rename the file or mend it");
-  if (given && said.unit && (given->si != said.unit->si || given->quantity != said.unit->quantity))
-    refuse(source, said.line,
-           "the file is in " + std::string(said.unit->name) + " and the case says " + source.unit +
-               "; correct unit in the case");
-  const Unit* const of_file = said.unit ? said.unit : by_extension;
-  const Unit* const unit = given ? given : of_file;
-  if (!unit) refuse(source, "its unit is not in the file; give unit, e.g. unit: g");
-  const auto held = of_file ? std::optional(of_file->quantity) : said.quantity;
-  if (held && *held != unit->quantity)
-    refuse(source, "it holds " + std::string(name_of(*held)) + ", and unit " + std::string(unit->name) +
-                       " is one of " + std::string(name_of(unit->quantity)) + "; correct unit in the case");
-  if (source.quantity && *source.quantity != unit->quantity)
-    refuse(source, "its unit " + std::string(unit->name) + " is one of " +
-                       std::string(name_of(unit->quantity)) + " and the case says " +
-                       std::string(name_of(*source.quantity)) + "; correct quantity or unit");
-  return *unit;
-}
-
 /// dt of the file, or the case's where that agrees to within `tolerance` (relative).
 double agreed_dt(const RecordSource& source, const Line& line, double dt, double tolerance)
 {
@@ -300,7 +42,7 @@ double agreed_dt(const RecordSource& source, const Line& line, double dt, double
   return source.dt;
 }
 
-Record finished(const RecordSource& source, std::string format, const Unit& unit, double dt,
+Record finished(const RecordSource& source, std::string format, const RecordUnit& unit, double dt,
                 std::vector<double> values, std::vector<std::string> notes)
 {
   if (values.size() < 2) refuse(source, "holds " + std::to_string(values.size()) + " values; not a record");
@@ -359,7 +101,7 @@ Record read_peer(const RecordSource& source, const std::vector<Line>& lines, con
   const auto count = std::size_t(header.count);
   const double dt = agreed_dt(source, lines[header.line], header.dt, 1e-6);
   const Said said = said_by_units_line({lines.begin(), lines.begin() + long(header.line)});
-  const Unit unit = agreed_unit(source, said, unit_by_extension(source.file));
+  const RecordUnit unit = agreed_unit(source, said, unit_by_extension(source.file));
   std::vector<double> values;
   std::size_t i = header.line + 1;
   for (; i < lines.size() && values.size() < count; ++i)
