@@ -43,12 +43,7 @@ struct MohrCoulomb : Elastic, LinearSoftening
         P{"softening.strain", D::none, &L::softening_strain, 0, false, unlimited, true, false},
     };
   }
-  static constexpr std::array<StateField, 3> state_fields()
-  {
-    return {{{"plastic_strain", "1", "accumulated equivalent plastic strain"},
-             {"opening", "1", "volumetric strain by which the point is torn apart"},
-             {"dissipation", "J/m3", "energy dissipated by plastic flow per undeformed volume"}}};
-  }
+  static constexpr auto state_fields() { return flow_and_opening; }
 
   std::string resolve(double spacing);
   std::string note() const;

@@ -1,6 +1,7 @@
 #pragma once
 // What the laws that yield, slide and open share.
 
+#include "materials/parameter.hpp"
 #include "materials/plane_strain.hpp"
 
 #include <algorithm>
@@ -8,6 +9,12 @@
 
 namespace mpm
 {
+/// What such a law remembers of a point.
+inline constexpr std::array<StateField, 3> flow_and_opening{
+    {{"plastic_strain", "1", "accumulated equivalent plastic strain"},
+     {"opening", "1", "volumetric strain by which the point is torn apart"},
+     {"dissipation", "J/m3", "energy dissipated by plastic flow per undeformed volume"}}};
+
 /// Calls f(begin, n, over) for stretches of a batch in which a point has excess(k) > 0; over[k] is what
 /// excess(begin + k) was. Finding them vectorises, so that a batch in which nobody yields costs little.
 template <class Excess, class Function>

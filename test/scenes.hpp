@@ -6,7 +6,9 @@
 #include "solver/mpm/step.hpp"
 
 #include <cmath>
+#include <numbers>
 #include <random>
+#include <stdexcept>
 
 namespace scenes
 {
@@ -71,6 +73,36 @@ inline VonMises von_mises(double peak, double residual, double strain, double yo
   law.peak = peak;
   law.residual = residual;
   law.softening_strain = strain;
+  return law;
+}
+
+/// Perfectly plastic ground of 2000 kg/m3 and E = 50 MPa; angles in degrees.
+inline MohrCoulomb mohr_coulomb(double friction, double cohesion, double dilation = 0)
+{
+  constexpr double degree = std::numbers::pi / 180;
+  MohrCoulomb law;
+  law.density = 2000;
+  law.young = 50e6;
+  law.poisson = 0.3;
+  law.friction_peak = friction * degree;
+  law.cohesion_peak = cohesion;
+  law.dilation = dilation * degree;
+  if (const std::string problem = law.resolve(1); !problem.empty()) throw std::runtime_error(problem);
+  return law;
+}
+
+/// A shear zone as stiff and heavy as that of the paper's Table 2, with a critical slip and a thickness in m.
+inline SlipWeakening slip_weakening(double friction_peak, double friction_residual, double critical_slip,
+                                    double thickness)
+{
+  SlipWeakening law;
+  law.density = 2450;
+  law.young = 1e9;
+  law.poisson = 0.3;
+  law.friction_peak = friction_peak;
+  law.friction_residual = friction_residual;
+  law.critical_slip = critical_slip;
+  law.thickness = thickness;
   return law;
 }
 

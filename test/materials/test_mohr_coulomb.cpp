@@ -7,24 +7,12 @@
 
 using namespace mpm;
 using namespace point;
+using scenes::mohr_coulomb;
 using scenes::Random;
 
 namespace
 {
 constexpr double degree = std::numbers::pi / 180;
-
-MohrCoulomb mohr_coulomb(double friction, double cohesion, double dilation = 0)
-{
-  MohrCoulomb law;
-  law.density = 2000;
-  law.young = 50e6;
-  law.poisson = 0.3;
-  law.friction_peak = friction * degree;
-  law.cohesion_peak = cohesion;
-  law.dilation = dilation * degree;
-  REQUIRE(law.resolve(1).empty());
-  return law;
-}
 
 /// The landslide mass of the paper's Table 2.
 MohrCoulomb rock()
@@ -276,81 +264,6 @@ TEST_CASE("Equal peak and residual strength are perfectly plastic Mohr-Coulomb t
   CHECK(a.strain() > 0.05);
   CHECK(a.stress == b.stress);
   CHECK(a.state == b.state);
-}
-
-TEST_CASE("Debris pulled apart carries no pressure before it has closed again", "[materials]")
-{
-  const MohrCoulomb law = mohr_coulomb(30, 0);
-  Point p;
-  p.stress = {-10e3, -10e3, -10e3, 0};
-  // To twice its volume, sheared and turned on the way.
-  for (int k = 0; k < 7000; ++k) p = update(law, p, {4e-5, 6e-5, 3e-5});
-  CHECK(p.ratio == Approx(std::exp(0.7)));
-  CHECK(p.shear() == 0);
-  CHECK(p.mean() == 0);
-  int steps = 0;
-  while (p.mean() == 0 && steps < 100000)
-  {
-    p = update(law, p, {-5e-5, -5e-5, 0});
-    ++steps;
-  }
-  // Closed where it was free of stress: by the elastic compression of the first 10 kPa above the start, less
-  // a step.
-  const double unloaded = std::exp(10e3 / law.bulk_modulus());
-  CHECK(p.ratio == Approx(unloaded).margin(1.1e-4));
-  CHECK(p.opening() == 0);
-  for (int k = 0; k < 10; ++k) p = update(law, p, {-5e-5, -5e-5, 0});
-  CHECK(p.mean() < -10e3);
-}
-
-TEST_CASE("Cohesive ground opens at its apex and closes at no pressure", "[materials]")
-{
-  const MohrCoulomb law = mohr_coulomb(30, 10e3);
-  Point p;
-  for (int k = 0; k < 1000; ++k) p = update(law, p, {1e-5, 1e-5, 0});
-  const double apex = 10e3 / std::tan(30 * degree);
-  CHECK(p.mean() == Approx(apex));
-  const double opening = p.opening();
-  CHECK(opening == Approx(0.02 - apex / law.bulk_modulus()));
-  p = update(law, p, {-5e-3, -5e-3, 0});
-  CHECK(std::fabs(p.mean()) < 1e-9);
-  // The elastic expansion goes back first.
-  CHECK(p.opening() == Approx(opening - 0.01 + apex / law.bulk_modulus()));
-  for (int k = 0; k < 10; ++k) p = update(law, p, {-1e-3, -1e-3, 0});
-  CHECK(p.opening() == 0);
-  CHECK(p.mean() < -10e3);
-}
-
-TEST_CASE("A tension cut-off holds the greatest principal stress", "[materials]")
-{
-  MohrCoulomb law = mohr_coulomb(30, 10e3);
-  law.tension_cutoff = 2e3;
-  Point p;
-  p.stress = {0, -8e3, 0, 0};
-  for (int k = 0; k < 1000; ++k) p = update(law, p, {1e-5, 0, 2e-6});
-  CHECK(p.principal()[0] == Approx(2e3).epsilon(1e-12));
-  law.tension_cutoff = 1e9; // never above the apex
-  p = {};
-  for (int k = 0; k < 1000; ++k) p = update(law, p, {1e-5, 1e-5, 0});
-  CHECK(p.principal()[0] == Approx(10e3 / std::tan(30 * degree)).epsilon(1e-12));
-}
-
-TEST_CASE("A heap of no cohesion on its apex at every step stays finite and free of stress", "[materials]")
-{
-  Random random(74);
-  for (const double friction : {0.0, 30.0, 60.0})
-  {
-    MohrCoulomb law = mohr_coulomb(friction, 0);
-    law.tension_cutoff = 0;
-    Point p;
-    for (int k = 0; k < 20000; ++k)
-    {
-      p = update(law, p, {random(-1e-3, 1.2e-3), random(-1e-3, 1.2e-3), random(-1e-3, 1e-3)});
-      REQUIRE(std::isfinite(p.stress[0] + p.stress[1] + p.stress[2] + p.stress[3] + p.state[0] + p.state[1]));
-      REQUIRE(p.principal()[0] <= 1e-9);
-    }
-    CHECK(p.opening() > 0);
-  }
 }
 
 TEST_CASE("Below its surface Mohr-Coulomb is elastic, and with cohesion without end too", "[materials]")

@@ -12,14 +12,7 @@ namespace
 /// The shear zone of the paper's Table 2, `thickness` in m.
 SlipWeakening zone(SlipWeakening::Match match = SlipWeakening::mc, double thickness = 4)
 {
-  SlipWeakening law;
-  law.density = 2450;
-  law.young = 1e9;
-  law.poisson = 0.3;
-  law.friction_peak = 0.56;
-  law.friction_residual = 0.07;
-  law.critical_slip = 1.7;
-  law.thickness = thickness;
+  SlipWeakening law = scenes::slip_weakening(0.56, 0.07, 1.7, thickness);
   law.match = match;
   REQUIRE(law.resolve(1).empty());
   return law;
@@ -161,23 +154,6 @@ TEST_CASE("Equal peak and residual friction are perfect plasticity to the last b
   CHECK(a.strain() > 1);
   CHECK(a.stress == b.stress);
   CHECK(a.state == b.state);
-}
-
-TEST_CASE("A shear zone pulled apart carries nothing before it has closed again", "[materials]")
-{
-  const SlipWeakening law = zone();
-  Point p = under_pressure(1e5);
-  for (int k = 0; k < 1000; ++k) p = update(law, p, {2e-4, 3e-4, 1e-4});
-  CHECK(p.mean() == 0);
-  CHECK(p.shear() == 0);
-  int steps = 0;
-  while (p.mean() == 0 && steps < 100000)
-  {
-    p = update(law, p, {-1e-4, -1e-4, 5e-5});
-    ++steps;
-  }
-  CHECK(p.ratio == Approx(std::exp(1e5 / law.bulk_modulus())).margin(2.2e-4));
-  CHECK(p.opening() == 0);
 }
 
 TEST_CASE("Slip-weakening parameters that do not go together are refused, thin zones warned of",

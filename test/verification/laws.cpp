@@ -1,4 +1,5 @@
 #include "test/materials/point.hpp"
+#include "test/scenes.hpp"
 #include "test/verification/cases.hpp"
 
 #include <numbers>
@@ -10,10 +11,11 @@ namespace
 using point::hold_yy;
 using point::Point;
 using point::update;
+using scenes::mohr_coulomb;
 
-constexpr double pressure = 100e3; // Pa, of the confinement
-constexpr double angle = std::numbers::pi / 6;
-constexpr double cohesion = 20e3; // Pa
+constexpr double pressure = 100e3;             // Pa, of the confinement
+constexpr double angle = std::numbers::pi / 6; // 30 degrees
+constexpr double cohesion = 20e3;              // Pa
 
 template <class L>
 L ground(L law)
@@ -25,15 +27,6 @@ L ground(L law)
   return law;
 }
 
-MohrCoulomb sand(double cohesion, double dilation)
-{
-  MohrCoulomb law;
-  law.friction_peak = angle;
-  law.cohesion_peak = cohesion;
-  law.dilation = dilation;
-  return ground(law);
-}
-
 double error_of(double found, double wanted)
 {
   return std::fabs(found / wanted - 1);
@@ -42,7 +35,7 @@ double error_of(double found, double wanted)
 /// Lateral extension while z, the axis, is held: sigma_z = N sigma_r - 2 c sqrt(N).
 double triaxial(double step)
 {
-  const MohrCoulomb law = sand(cohesion, 0);
+  const MohrCoulomb law = mohr_coulomb(30, cohesion);
   Point p;
   p.stress = {-200e3, -200e3, -600e3, 0};
   for (int k = 0; k * step < 5e-3; ++k) p = update(law, p, {0.1 * step, 0.1 * step, 0});
@@ -53,7 +46,7 @@ double triaxial(double step)
 /// Compression across a held lateral stress: tau_max = sigma_m sin phi + c cos phi.
 double biaxial(double step)
 {
-  const MohrCoulomb law = sand(cohesion, 0);
+  const MohrCoulomb law = mohr_coulomb(30, cohesion);
   Point p;
   p.stress = {-pressure, -pressure, -pressure, 0};
   for (int k = 0; k * step < 0.02; ++k) p = hold_yy(law, p, -step, 0, -pressure);
@@ -92,11 +85,11 @@ Findings run_laws(const std::filesystem::path&, double step)
   auto& e = found.errors;
   e["triaxial"] = triaxial(step);
   e["biaxial"] = biaxial(step);
-  e["simple shear"] = error_of(simple_shear(sand(0, 0), step), pressure * std::sin(angle));
+  e["simple shear"] = error_of(simple_shear(mohr_coulomb(30, 0), step), pressure * std::sin(angle));
   // Davis (1968): sin phi cos psi / (1 - sin phi sin psi)
   const double psi = 0.5 * angle;
   e["simple shear, dilating"] =
-      error_of(simple_shear(sand(0, psi), step),
+      error_of(simple_shear(mohr_coulomb(30, 0, 15), step),
                pressure * std::sin(angle) * std::cos(psi) / (1 - std::sin(angle) * std::sin(psi)));
   VonMises clay;
   clay.peak = 70e3;

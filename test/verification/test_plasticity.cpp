@@ -1,3 +1,4 @@
+#include "test/scenes.hpp"
 #include "test/verification/infinite_slope.hpp"
 
 #include <catch2/catch.hpp>
@@ -10,15 +11,7 @@ namespace
 /// Cells of 1 m; the thickness of eq. 8 is the zone's.
 InfiniteSlope on_zone_of(int cells, double flip_blend)
 {
-  SlipWeakening law;
-  law.density = 2450;
-  law.young = 1e9;
-  law.poisson = 0.3;
-  law.friction_peak = 0.4;
-  law.friction_residual = 0.1;
-  law.critical_slip = 0.5;
-  law.thickness = cells;
-  InfiniteSlope slope{law};
+  InfiniteSlope slope{scenes::slip_weakening(0.4, 0.1, 0.5, cells)};
   slope.zone_cells = cells;
   slope.flip_blend = flip_blend;
   return slope;

@@ -1,3 +1,4 @@
+#include "test/scenes.hpp"
 #include "test/verification/cases.hpp"
 #include "test/verification/infinite_slope.hpp"
 
@@ -11,15 +12,7 @@ constexpr double thickness = 2; // m, of the layer
 
 InfiniteSlope slope_at(double spacing, double flip_blend)
 {
-  SlipWeakening law;
-  law.density = 2450;
-  law.young = 1e9;
-  law.poisson = 0.3;
-  law.friction_peak = 0.4;
-  law.friction_residual = 0.1;
-  law.critical_slip = 0.5;
-  law.thickness = thickness;
-  InfiniteSlope slope{law};
+  InfiniteSlope slope{scenes::slip_weakening(0.4, 0.1, 0.5, thickness)};
   slope.spacing = spacing;
   slope.zone_cells = static_cast<int>(std::lround(thickness / spacing));
   slope.flip_blend = flip_blend;
