@@ -48,6 +48,14 @@ inline void put(const std::filesystem::path& path, const std::string& text)
   std::ofstream(path, std::ios::binary) << text;
 }
 
+/// A text with one part of it, which it must hold, replaced.
+inline std::string replaced(std::string text, const std::string& from, const std::string& to)
+{
+  const auto at = text.find(from);
+  if (at == std::string::npos) throw std::runtime_error("the text holds no '" + from + "'");
+  return text.replace(at, from.size(), to);
+}
+
 /// The exit status of the error that `action` throws; 0 when it throws none.
 template <class Action>
 int code_of(const Action& action)

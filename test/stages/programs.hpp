@@ -256,11 +256,4 @@ inline std::map<std::string, fs::file_time_type> times(const fs::path& folder)
       all[name] = entry.last_write_time();
   return all;
 }
-
-inline std::string replaced(std::string text, const std::string& from, const std::string& to)
-{
-  const auto at = text.find(from);
-  REQUIRE(at != std::string::npos);
-  return text.replace(at, from.size(), to);
-}
 } // namespace mpm::test
