@@ -1,5 +1,6 @@
 // The two programs from outside: what a script that starts them may rely on.
 
+#include "solver/mpm/phases.hpp"
 #include "test/stages/programs.hpp"
 #include "test/stages/results.hpp"
 
@@ -133,4 +134,31 @@ TEST_CASE("summary.json tells how a run ended, and the log all runs of the folde
   bench.make_static();
   CHECK_THAT(contents(bench / "static/summary.json"), Contains("\"exit\": 0"));
   CHECK_THAT(contents(bench / "static/log.txt"), Contains("ends with 75") && Contains("ends with 0"));
+}
+
+TEST_CASE("summary.json and the log tell where the time went", "[stages]")
+{
+  const Bench bench;
+  bench.make_static();
+  REQUIRE(bench.run_seismic("out", {"--set", "seismic.duration=0.2 s"}).code == 0);
+  for (const std::string out : {"static", "out"})
+  {
+    INFO(out);
+    const auto summary = nlohmann::json::parse(contents(bench / out / "summary.json"));
+    const double all = summary["ns_per_particle_step"].get<double>();
+    const auto& phases = summary["phases"];
+    CHECK(phases.size() == phase_names.size());
+    double sum = 0;
+    for (const std::string_view name : phase_names)
+    {
+      const double cost = phases.at(std::string(name)).get<double>();
+      CHECK(cost >= 0);
+      sum += cost;
+    }
+    // Each of these is done in every step; the columns are the seismic stage's too.
+    for (const std::string name : {"columns", "scatter", "gather"}) CHECK(phases[name].get<double>() > 0);
+    // Parts of the loop's time, to the rounding of clocks and sums.
+    CHECK(sum <= all * (1 + 1e-6));
+    CHECK_THAT(contents(bench / out / "log.txt"), Contains("of it columns "));
+  }
 }

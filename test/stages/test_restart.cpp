@@ -1,5 +1,6 @@
 // Runs that are cut short and gone on with, and the same on any number of threads.
 
+#include "solver/mpm/simd.hpp"
 #include "test/stages/programs.hpp"
 #include "test/stages/results.hpp"
 
@@ -41,6 +42,46 @@ void check_ledger(const fs::path& folder, const std::vector<std::string>& groups
   CHECK_THAT(contents(folder / "log.txt"), Contains("energy in J/m: ") && !Contains("does not close"));
 }
 
+/// Ends a run by a signal, by SIGKILL and by its time limit, on one thread and on two, and goes on with each;
+/// `check` looks at the folder that comes of it.
+void cut_short_and_go_on(const Bench& bench, const std::string& program,
+                         Arguments (Bench::*arguments_for)(const std::string&, const Arguments&) const,
+                         const std::function<void(const std::string&)>& check)
+{
+  for (const std::string threads : {"1", "2"})
+  {
+    const auto arguments = [&](const std::string& out) {
+      return (bench.*arguments_for)(out, {"--threads", threads});
+    };
+    const auto check_goes_on = [&](const std::string& out)
+    {
+      const Ending ending = bench.run(program, arguments(out));
+      INFO(threads + " threads, " + out + "\n" + ending.said);
+      REQUIRE(ending.code == 0);
+      CHECK_THAT(ending.said, Contains("goes on from"));
+      check(out);
+    };
+    const std::string terminated = "terminated" + threads, killed = "killed" + threads,
+                      stopped = "stopped" + threads;
+    terminate(bench, program, arguments(terminated), bench / terminated);
+    check_goes_on(terminated);
+    kill_after_checkpoints(bench, program, arguments(killed), bench / killed, 1);
+    check_goes_on(killed);
+    run_out_of_time(bench, program, arguments(stopped), bench / stopped);
+    check_goes_on(stopped);
+  }
+}
+
+/// Lets a checkpoint say that it was computed with other instructions.
+void claim_vectors(const fs::path& checkpoint, const char* name)
+{
+  const h5::Handle file{H5Fopen(checkpoint.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose};
+  const h5::Handle attribute{H5Aopen_by_name(file.id(), "clock", "vectors", H5P_DEFAULT, H5P_DEFAULT),
+                             H5Aclose};
+  const h5::Handle type{H5Aget_type(attribute.id()), H5Tclose};
+  REQUIRE(H5Awrite(attribute.id(), type.id(), &name) >= 0);
+}
+
 /// Kills the run at its first checkpoint after it has said that the slide is self-driven.
 void kill_when_decided(const Bench& bench, const Arguments& arguments, const fs::path& out)
 {
@@ -59,28 +100,12 @@ TEST_CASE("a static run that was cut short and resumed ends bit for bit as one t
 {
   const Bench bench;
   bench.make_static();
-  for (const std::string threads : {"1", "2"})
+  const auto same_state = [&](const std::string& out)
   {
-    const auto arguments = [&](const std::string& out) {
-      return bench.static_arguments(out, {"--threads", threads});
-    };
-    const auto check_goes_on = [&](const std::string& out)
-    {
-      const Ending ending = bench.run("mpm-static", arguments(out));
-      INFO(threads + " threads, " + out + "\n" + ending.said);
-      REQUIRE(ending.code == 0);
-      CHECK_THAT(ending.said, Contains("goes on from"));
-      CHECK(difference(bench / "static/final.h5", bench / (out + "/final.h5")).empty());
-      CHECK(checkpoints(bench / out).empty());
-    };
-    terminate(bench, "mpm-static", arguments("terminated" + threads), bench / ("terminated" + threads));
-    check_goes_on("terminated" + threads);
-    kill_after_checkpoints(bench, "mpm-static", arguments("killed" + threads), bench / ("killed" + threads),
-                           1);
-    check_goes_on("killed" + threads);
-    run_out_of_time(bench, "mpm-static", arguments("stopped" + threads), bench / ("stopped" + threads));
-    check_goes_on("stopped" + threads);
-  }
+    CHECK(difference(bench / "static/final.h5", bench / (out + "/final.h5")).empty());
+    CHECK(checkpoints(bench / out).empty());
+  };
+  cut_short_and_go_on(bench, "mpm-static", &Bench::static_arguments, same_state);
 }
 
 TEST_CASE("a static run ends bit for bit the same on one thread and on two", "[stages]")
@@ -98,27 +123,8 @@ TEST_CASE("a seismic run that was cut short and resumed ends bit for bit as one 
   REQUIRE(bench.run_seismic("whole").code == 0);
   REQUIRE(greatest_plastic_strain(bench / "whole/final.h5") >
           0.01); // else the clay would have nothing to remember
-  for (const std::string threads : {"1", "2"})
-  {
-    const auto arguments = [&](const std::string& out) {
-      return bench.seismic_arguments(out, {"--threads", threads});
-    };
-    const auto check_goes_on = [&](const std::string& out)
-    {
-      const Ending ending = bench.run("mpm-seismic", arguments(out));
-      INFO(threads + " threads, " + out + "\n" + ending.said);
-      REQUIRE(ending.code == 0);
-      CHECK_THAT(ending.said, Contains("goes on from"));
-      check_same_results(bench / "whole", bench / out);
-    };
-    terminate(bench, "mpm-seismic", arguments("terminated" + threads), bench / ("terminated" + threads));
-    check_goes_on("terminated" + threads);
-    kill_after_checkpoints(bench, "mpm-seismic", arguments("killed" + threads), bench / ("killed" + threads),
-                           1);
-    check_goes_on("killed" + threads);
-    run_out_of_time(bench, "mpm-seismic", arguments("stopped" + threads), bench / ("stopped" + threads));
-    check_goes_on("stopped" + threads);
-  }
+  const auto same_results = [&](const std::string& out) { check_same_results(bench / "whole", bench / out); };
+  cut_short_and_go_on(bench, "mpm-seismic", &Bench::seismic_arguments, same_results);
 }
 
 TEST_CASE("a seismic run ends bit for bit the same on one thread and on two", "[stages]")
@@ -144,6 +150,26 @@ TEST_CASE("a torn checkpoint is passed over for the one before it, and the resul
   REQUIRE(ending.code == 0);
   CHECK_THAT(ending.said, Contains("trying an older one"));
   check_same_results(bench / "whole", bench / "torn");
+}
+
+TEST_CASE("a run that goes on with other instructions than its checkpoint's says so", "[stages]")
+{
+  const Bench bench;
+  bench.make_static();
+  for (const bool other : {false, true})
+  {
+    const std::string out = other ? "other" : "same";
+    terminate(bench, "mpm-seismic", bench.seismic_arguments(out), bench / out);
+    if (other)
+      for (const fs::path& checkpoint : checkpoints(bench / out)) claim_vectors(checkpoint, "abacus");
+    const Ending ending = bench.run_seismic(out);
+    INFO(ending.said);
+    REQUIRE(ending.code == 0);
+    const std::string warned =
+        "was computed with abacus instructions, this build uses " + std::string(vector_path);
+    CHECK((ending.said.find(warned) != std::string::npos) == other);
+    CHECK((contents(bench / out / "summary.json").find(warned) != std::string::npos) == other);
+  }
 }
 
 TEST_CASE("a write that fails exits with 74 and leaves the last checkpoint to go on from", "[stages]")
