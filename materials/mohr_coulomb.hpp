@@ -40,6 +40,7 @@ struct MohrCoulomb : Elastic, LinearSoftening
         P{"tension_cutoff", D::stress, &L::tension_cutoff, 0, true, unlimited, true, false},
         P{"softening.displacement", D::length, &L::softening_displacement, 0, false, unlimited, true, false},
         P{"softening.band_width", D::length, &L::band_width, 0, false, unlimited, true, false},
+        P{"softening.band_cells", D::none, &L::band_cells, 0, false, unlimited, true, false},
         P{"softening.strain", D::none, &L::softening_strain, 0, false, unlimited, true, false},
     };
   }

@@ -9,8 +9,13 @@ namespace mpm
 /// the width l of the band that it is spread over: strain = delta / (sqrt(3) l) (paper eq. 8).
 struct LinearSoftening
 {
+  /// Width in cells with which a band dissipates what the displacement stands for: the derivative of the
+  /// cubic spline is three cells wide (cases/verification/shear_band).
+  static constexpr double usual_band_cells = 3;
+
   double softening_displacement = NAN; ///< m
-  double band_width = NAN;             ///< m, by default 1.45 grid spacings
+  double band_width = NAN;             ///< m
+  double band_cells = NAN;             ///< the width in grid spacings, instead of band_width
   double softening_strain = NAN;       ///< plastic strain at which the residual strength is reached
 
   /// Fixes the softening strain. `least`: strain at which the strength falls as fast as the stress unloads;
@@ -22,10 +27,13 @@ struct LinearSoftening
     if (by_displacement == by_strain && !(by_displacement && resolved_))
       return "softening: give either 'displacement' (a length) or 'strain', since the residual strength is "
              "below the peak";
+    if (!std::isnan(band_width) && !std::isnan(band_cells))
+      return "softening: give either 'band_width' (a length) or 'band_cells', not both";
     if (by_displacement)
     {
-      if (std::isnan(band_width)) band_width = 1.45 * spacing;
-      softening_strain = softening_displacement / (std::sqrt(3.0) * band_width);
+      const double cells = std::isnan(band_cells) ? usual_band_cells : band_cells;
+      softening_strain =
+          softening_displacement / (std::sqrt(3.0) * (std::isnan(band_width) ? cells * spacing : band_width));
       resolved_ = true;
     }
     if (softening_strain > least) return {};

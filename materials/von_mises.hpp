@@ -28,6 +28,7 @@ struct VonMises : Elastic, LinearSoftening
         P{"softening.displacement", Dimension::length, &VonMises::softening_displacement, 0, false, inf, true,
           false},
         P{"softening.band_width", Dimension::length, &VonMises::band_width, 0, false, inf, true, false},
+        P{"softening.band_cells", Dimension::none, &VonMises::band_cells, 0, false, inf, true, false},
         P{"softening.strain", Dimension::none, &VonMises::softening_strain, 0, false, inf, true, false},
     };
   }

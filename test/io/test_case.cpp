@@ -230,7 +230,7 @@ TEST_CASE("Mohr-Coulomb and slip weakening are read from their tables", "[io]")
   const auto& mass = std::get<MohrCoulomb>(scene.materials[0].law);
   CHECK(mass.friction_peak == Approx(38.5 * std::numbers::pi / 180));
   CHECK(mass.cohesion_residual == 0);
-  CHECK(mass.softening_strain == Approx(1.7 / (std::sqrt(3.0) * 1.45 * 2)));
+  CHECK(mass.softening_strain == Approx(1.7 / (std::sqrt(3.0) * 3 * 2)));
   CHECK(mass.dilation == 0);
   const auto& zone = std::get<SlipWeakening>(scene.materials[1].law);
   CHECK(zone.friction_residual == 0.07);

@@ -247,10 +247,17 @@ TEST_CASE("The softening strain follows from the displacement and the band width
   VonMises law = von_mises(70e3, 39e3, NAN, 25e6, 0.3);
   law.softening_displacement = 0.1;
   REQUIRE(law.resolve(0.5).empty());
-  CHECK(law.softening_strain == Approx(0.1 / (std::sqrt(3.0) * 1.45 * 0.5)).epsilon(1e-14)); // eq. (8)
+  CHECK(law.softening_strain == Approx(0.1 / (std::sqrt(3.0) * 3 * 0.5)).epsilon(1e-14)); // eq. (8)
   const double first = law.softening_strain;
   REQUIRE(law.resolve(0.5).empty()); // resolving again changes nothing
   CHECK(law.softening_strain == first);
+  VonMises narrow = von_mises(70e3, 39e3, NAN, 25e6, 0.3);
+  narrow.softening_displacement = 0.1;
+  narrow.band_cells = 1.45;
+  REQUIRE(narrow.resolve(0.5).empty());
+  CHECK(narrow.softening_strain == Approx(first * 3 / 1.45).epsilon(1e-14));
+  narrow.band_width = 1;
+  CHECK_THAT(narrow.resolve(0.5), Catch::StartsWith("softening: give either 'band_width'"));
 }
 
 TEST_CASE("Strengths that make no sense are refused", "[materials]")

@@ -18,10 +18,11 @@ struct BandEnergy
   double softening; ///< dissipated above the residual strength, in the middle of the band, J/m2
 };
 
-/// A square box of the law, 24 cells wide, whose rim moves as two rigid halves that slide past each other by
-/// `slip` (m) along a line through the middle, inclined to the grid by `degrees`. The law's softening is by
-/// displacement.
-BandEnergy shear_band(VonMises law, double degrees, BandPlace place, double spacing, double slip);
+/// A square box of the law, 24 cells or more wide, whose rim moves as two rigid halves that slide past each
+/// other by `slip` (m) along a line through the middle, inclined to the grid by `degrees`. The law's
+/// softening is by displacement. `average_volume`: with volume changes averaged over the cells.
+BandEnergy shear_band(VonMises law, double degrees, BandPlace place, double spacing, double slip,
+                      bool average_volume);
 
 /// (tau_p - tau_r) delta_r / 2 in J/m2, tau = q / sqrt(3) in plane strain: what the softening displacement
 /// stands for.
