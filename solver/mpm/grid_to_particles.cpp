@@ -181,28 +181,51 @@ double update_home(Domain& domain, const Home& home, double dt)
   return greatest_of(greatest.velocity) * inverse_weights * courant;
 }
 
+/// Share of the lightest ground's density below which a gauge is not in the ground any more. A surface has a
+/// half, the edge of a vertical cut a quarter, a particle that flies alone, one of four of its cell, a
+/// twentieth; there the nodes' velocities are one particle's, far beyond the place where it is.
+constexpr double least_density = 0.1;
+
 /// Moves a gauge with the velocity of the ground at its place; nodes without mass are left out of the mean.
-/// Where there is none, or it sleeps, the gauge stands still.
-void move(Tracer& tracer, const Grid& grid, NodeFinder& find, double dt)
+/// Where the ground is torn to pieces it flies, where the ground sleeps it stands still.
+void move(Tracer& tracer, const Domain& domain, double density, NodeFinder& find, double dt)
 {
+  const Grid& grid = domain.grid;
   const Stencil sx = cubic_stencil(tracer.x - grid.origin_x, grid.spacing);
   const Stencil sy = cubic_stencil(tracer.y - grid.origin_y, grid.spacing);
   find.move_to(sx.first, sy.first);
-  double weight = 0, vx = 0, vy = 0;
+  double weight = 0, mass = 0, vx = 0, vy = 0;
+  bool rests = false;
   for (int j = 0; j < 4; ++j)
     for (int i = 0; i < 4; ++i)
     {
       const int node = find(sx.first + i, sy.first + j);
-      if (node < 0 || grid.mass[node] <= 0) continue;
+      if (node < 0) continue;
+      const int home = domain.home_in[node / block_nodes];
+      rests |= home >= 0 && domain.homes[home].asleep;
+      if (grid.mass[node] <= 0) continue;
       const double w = sx.weight[i] * sy.weight[j];
       weight += w;
+      mass += w * grid.mass[node];
       vx += w * grid.velocity_x[node];
       vy += w * grid.velocity_y[node];
     }
-  tracer.velocity_x = weight > 0 ? vx / weight : 0;
-  tracer.velocity_y = weight > 0 ? vy / weight : 0;
+  const bool flies = !rests && mass < least_density * density * grid.spacing * grid.spacing;
+  const auto next = [&](double before, double gravity, double sum) {
+    return flies ? before + dt * gravity : weight > 0 ? sum / weight : 0;
+  };
+  tracer.velocity_x = next(tracer.velocity_x, domain.gravity_x, vx);
+  tracer.velocity_y = next(tracer.velocity_y, domain.gravity_y, vy);
   tracer.x += dt * tracer.velocity_x;
   tracer.y += dt * tracer.velocity_y;
+}
+
+void move_tracers(Domain& domain, double dt)
+{
+  double lightest = std::numeric_limits<double>::infinity();
+  for (const Material& material : domain.materials) lightest = std::min(lightest, material.elastic().density);
+  NodeFinder find(domain.grid);
+  for (Tracer& tracer : domain.tracers) move(tracer, domain, lightest, find, dt);
 }
 } // namespace
 
@@ -214,7 +237,6 @@ void grid_to_particles(Domain& domain, double dt)
   std::vector<double> speeds(moves);
   for (double& speed : speeds) speed *= domain.grid.spacing / dt;
   watch_rest(domain, speeds, dt);
-  NodeFinder find(domain.grid);
-  for (Tracer& tracer : domain.tracers) move(tracer, domain.grid, find, dt);
+  move_tracers(domain, dt);
 }
 } // namespace mpm

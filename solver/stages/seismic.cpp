@@ -197,6 +197,7 @@ private:
       end_motion();
       if (clock.step % check_every == 0)
       {
+        limit_openings(*model_.main);
         check_particles(*model_.main, model_.reference_volume);
         energy_.check(clock.time());
         check_step(session_, model_, session_.scene.safety, clock);
