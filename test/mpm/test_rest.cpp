@@ -73,6 +73,8 @@ TEST_CASE("Nothing rests before it is allowed to, and all wakes when it no longe
   const int window = static_cast<int>(std::ceil(Rest::window / time_step)) + 1;
   run(domain, 3 * window, time_step);
   CHECK(sleeping(domain) == 0);
+  domain.gravity_y = -1e-6; // a gauge in ground that is there does not fall
+  domain.tracers.push_back({20, 4, 20, 4});
   allow_rest(domain, below);
   run(domain, window, time_step);
   CHECK(sleeping(domain) == 0); // a second has to be watched from its beginning
@@ -81,6 +83,7 @@ TEST_CASE("Nothing rests before it is allowed to, and all wakes when it no longe
   domain.particles.velocity_y.assign(domain.particles.size(), 1);
   run(domain, 1, time_step);
   CHECK(greatest(domain.particles.y) < 8); // asleep, whatever it is told
+  CHECK(domain.tracers[0].velocity_y == 0);
   allow_rest(domain, 0);
   CHECK(sleeping(domain) == 0);
   const double before = domain.particles.y[0];

@@ -76,9 +76,13 @@ void cut_short_and_go_on(const Bench& bench, const std::string& program,
 void claim_vectors(const fs::path& checkpoint, const char* name)
 {
   const h5::Handle file{H5Fopen(checkpoint.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose};
-  const h5::Handle attribute{H5Aopen_by_name(file.id(), "clock", "vectors", H5P_DEFAULT, H5P_DEFAULT),
-                             H5Aclose};
-  const h5::Handle type{H5Aget_type(attribute.id()), H5Tclose};
+  const h5::Handle clock{H5Gopen(file.id(), "clock", H5P_DEFAULT), H5Gclose};
+  REQUIRE(H5Adelete(clock.id(), "vectors") >= 0);
+  const h5::Handle type{H5Tcopy(H5T_C_S1), H5Tclose};
+  REQUIRE(H5Tset_size(type.id(), H5T_VARIABLE) >= 0);
+  const h5::Handle space{H5Screate(H5S_SCALAR), H5Sclose};
+  const h5::Handle attribute{
+      H5Acreate(clock.id(), "vectors", type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose};
   REQUIRE(H5Awrite(attribute.id(), type.id(), &name) >= 0);
 }
 
