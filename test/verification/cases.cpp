@@ -18,7 +18,7 @@ std::span<const LadderCase> ladder_cases()
       LadderCase{"layer_courant", run_layer_courant},       // V8
       LadderCase{"layer_flip", run_layer_flip},             // V8
       LadderCase{"two_layers", run_site},                   // V9
-      LadderCase{"layer_consistent", run_layer_consistent}, // V8, V9
+      LadderCase{"layer_lumped", run_layer_lumped},         // V8, V9
       LadderCase{"layer_p", run_site},                      // V10
       LadderCase{"uniform_column", run_uniform_column},     // V10, V11
       LadderCase{"absorption", run_absorption},             // V12

@@ -20,8 +20,8 @@ Findings run_site(const std::filesystem::path& folder, double spacing);
 Findings run_layer_courant(const std::filesystem::path& folder, double courant);
 /// The layer at one spacing; the resolution is the share of FLIP.
 Findings run_layer_flip(const std::filesystem::path& folder, double share);
-/// The layer and the two layers with averaged interfaces and consistent inertia.
-Findings run_layer_consistent(const std::filesystem::path& folder, double spacing);
+/// The layer and the two layers with sharp interfaces and lumped mass.
+Findings run_layer_lumped(const std::filesystem::path& folder, double spacing);
 /// Packets of P and S waves that meet the compliant base at an angle.
 Findings run_absorption(const std::filesystem::path& folder, double spacing);
 /// The same at angles near grazing.
