@@ -10,15 +10,22 @@ void CompliantBase::add_forces(Domain& domain, double dt)
   nodes_.find(domain, faces_, stretch_spring(domain, dt));
   const auto [vx, vy] = wave_->velocity(domain.time + 0.5 * dt);
   Grid& g = domain.grid;
+  auto& dashpot_x = domain.consistent_inertia ? g.face_dashpot_x : g.dashpot_x;
+  auto& dashpot_y = domain.consistent_inertia ? g.face_dashpot_y : g.dashpot_y;
   for (const FaceNode& at : nodes_)
   {
-    g.dashpot_x[at.node] += at.dashpot_x;
-    g.dashpot_y[at.node] += at.dashpot_y;
+    dashpot_x[at.node] += at.dashpot_x;
+    dashpot_y[at.node] += at.dashpot_y;
     g.force_x[at.node] += 2 * vx * at.dashpot_x + at.drive_x;
     g.force_y[at.node] += 2 * vy * at.dashpot_y + at.drive_y;
   }
   input_[0][0] += 2 * vx * dt;
   input_[0][1] += 2 * vy * dt;
+}
+
+void CompliantBase::apply_dashpots(Domain& domain, double dt)
+{
+  columns_.apply(domain, nodes_, dt);
 }
 
 std::vector<std::array<double, 2>> CompliantBase::stretch_spring(const Domain& domain, double dt)
@@ -74,18 +81,22 @@ void CompliantBase::visit_state(StateVisitor& visitor)
   input.each("y", "m", [](auto& u) -> double& { return u[1]; });
 }
 
-/// Of the dashpots the traction c (2 v_up - v) does the work c v_up^2 - c (v - v_up)^2: what comes up less
-/// what goes down. The spring is the part of the static reaction that learns.
+/// The traction c (2 v_up - u) does the work c v_up^2 - c (u - v_up)^2 on a face that moves with u: what
+/// comes up less what goes down. The nodes may move with another velocity v than the u that the dashpots met.
+/// The spring is the part of the static reaction that learns.
 void CompliantBase::measure_work(const Domain& domain, double dt, Energies& now) const
 {
-  const auto [ux, uy] = wave_->velocity(domain.time + 0.5 * dt);
+  const Grid& g = domain.grid;
+  const auto [upx, upy] = wave_->velocity(domain.time + 0.5 * dt);
   double incoming = 0, radiated = 0, spring = 0;
   for (const FaceNode& at : nodes_)
   {
-    const auto [vx, vy] = domain.grid.middle_velocity(at.node);
+    const auto [vx, vy] = g.middle_velocity(at.node);
+    const auto [ux, uy] = domain.consistent_inertia ? columns_.velocity(at.column) : std::array{vx, vy};
     spring += at.drive_x * vx + at.drive_y * vy;
-    incoming += at.dashpot_x * ux * ux + at.dashpot_y * uy * uy;
-    radiated += at.dashpot_x * (vx - ux) * (vx - ux) + at.dashpot_y * (vy - uy) * (vy - uy);
+    incoming += at.dashpot_x * upx * upx + at.dashpot_y * upy * upy;
+    radiated +=
+        at.dashpot_x * (upx * upx - (2 * upx - ux) * vx) + at.dashpot_y * (upy * upy - (2 * upy - uy) * vy);
   }
   now[Energy::incoming] += dt * incoming;
   now[Energy::radiated_base] += dt * radiated;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "boundaries/base_spring.hpp"
+#include "boundaries/face_columns.hpp"
 #include "boundaries/ground_motion.hpp"
 
 #include <algorithm>
@@ -46,7 +47,7 @@ struct IncomingWave
   }
 };
 
-/// Compliant base (paper eq. 4): viscous dashpots on the bottom row whose far end moves with twice the
+/// Compliant base (paper eq. 4): viscous dashpots on the bottom face whose far end moves with twice the
 /// upgoing velocity; the static reaction is that of the frozen images. A spring, where there is one, keeps
 /// the base from drifting away from the free field.
 class CompliantBase final : public Boundary
@@ -60,6 +61,7 @@ public:
   std::string_view name() const override { return "base"; }
   bool absorbs() const override { return true; }
   void add_forces(Domain& domain, double dt) override;
+  void apply_dashpots(Domain& domain, double dt) override;
   void measure_work(const Domain& domain, double dt, Energies& now) const override;
   void visit_state(StateVisitor& visitor) override;
   /// Where the free field's base stands at the start of the step to come; without columns the free field goes
@@ -76,6 +78,7 @@ private:
 
   std::vector<Face> faces_; ///< from the left to the right
   FaceNodes nodes_;         ///< of the last step
+  FaceColumns columns_;     ///< likewise
   std::shared_ptr<const IncomingWave> wave_;
   BaseSpring spring_;
   std::vector<FreeFieldBase> free_field_;

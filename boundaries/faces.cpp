@@ -62,7 +62,7 @@ void FaceNodes::add(const Grid& grid, const NodeFinder& find, const CellSums& su
       if (slot_[node] < 0)
       {
         slot_[node] = static_cast<int>(nodes_.size());
-        nodes_.push_back({node, sums.j + row, 0, 0, 0, 0});
+        nodes_.push_back({node, grid.wrapped ? 0 : sums.i + column, sums.j + row, 0, 0, 0, 0});
       }
       FaceNode& at = nodes_[slot_[node]];
       at.dashpot_x += sums.dashpot_x[row][column];

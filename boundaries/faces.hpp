@@ -31,7 +31,7 @@ std::vector<Face> find_faces(const Domain& domain, Edge edge, double position, d
 /// What of the faces' dashpots acts at one grid node.
 struct FaceNode
 {
-  int node, row;               ///< place in the node fields, row of the grid
+  int node, column, row;       ///< place in the node fields, column and row of the grid
   double dashpot_x, dashpot_y; ///< N s/m per m
   double drive_x, drive_y;     ///< force of the dashpots' own far ends, N per m
 };

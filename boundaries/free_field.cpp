@@ -37,21 +37,26 @@ void FreeFieldColumn::note_motion(double dt)
   const int count = (g.blocks.back().y + 1) * block_cells - first_row;
   velocity.assign(count, {});
   acceleration.assign(count, {});
+  base_velocity = {};
+  std::array<double, 2> dashpot{};
   for (int row = 0; row < count; ++row)
   {
     const int node = g.node(0, first_row + row);
     if (node < 0 || g.mass[node] <= 0) continue;
-    const double vx = g.momentum_x[node] / g.mass[node], vy = g.momentum_y[node] / g.mass[node];
-    if (domain->consistent_inertia) // what the equation of motion says: the model corrects its own
+    // What the equation of motion says; where inertia is consistent, the model corrects its own.
+    velocity[row] = g.forced_velocity(node);
+    const auto [ax, ay] = g.velocity_change(node);
+    acceleration[row] = {ax / dt, ay / dt};
+    if (g.face_dashpot_x.empty()) continue; // a fixed base
+    const double c[2] = {g.face_dashpot_x[node], g.face_dashpot_y[node]};
+    for (int k = 0; k < 2; ++k)
     {
-      const auto [ax, ay] = g.velocity_change(node);
-      velocity[row] = {vx + 0.5 * ax, vy + 0.5 * ay};
-      acceleration[row] = {ax / dt, ay / dt};
-      continue;
+      dashpot[k] += c[k];
+      base_velocity[k] += c[k] * velocity[row][k];
     }
-    velocity[row] = {0.5 * (vx + g.velocity_x[node]), 0.5 * (vy + g.velocity_y[node])};
-    acceleration[row] = {(g.velocity_x[node] - vx) / dt, (g.velocity_y[node] - vy) / dt};
   }
+  for (int k = 0; k < 2; ++k)
+    if (dashpot[k] > 0) base_velocity[k] /= dashpot[k];
 }
 
 int FreeFieldColumn::row_near(double y) const
@@ -120,6 +125,11 @@ std::array<double, 2> FreeFieldSide::column_velocity(int row) const
                                                                   : std::array<double, 2>{};
 }
 
+std::array<double, 2> FreeFieldSide::base_velocity(int row) const
+{
+  return column_->domain->consistent_inertia ? column_->base_velocity : column_velocity(row);
+}
+
 void FreeFieldSide::add_forces(Domain& domain, double dt)
 {
   Grid& g = domain.grid;
@@ -148,23 +158,25 @@ void FreeFieldSide::add_ghost_base(Domain& domain, double dt)
   for (const FaceNode& at : ghost_nodes_)
   {
     if (g.mass[at.node] <= 0) continue;
-    const auto [vx, vy] = column_velocity(at.row);
-    g.force_x[at.node] += at.dashpot_x * (2 * ux - vx);
-    g.force_y[at.node] += at.dashpot_y * (2 * uy - vy);
+    const auto [cx, cy] = base_velocity(at.row);
+    g.force_x[at.node] += at.dashpot_x * (2 * ux - cx);
+    g.force_y[at.node] += at.dashpot_y * (2 * uy - cy);
   }
 }
 
 /// The dashpots' traction c (v_column - v) does the work c (v_column - v) v_column - c (v - v_column)^2: what
-/// the column brings, less what the scattered wave takes away.
+/// the column brings, less what the scattered wave takes away. Consistent inertia moves a node with another
+/// velocity v' than the v that its dashpot met.
 void FreeFieldSide::measure_work(const Domain& domain, double dt, Energies& now) const
 {
   double brought = 0, radiated = 0;
   for (const FaceNode& at : nodes_)
   {
-    const auto [vx, vy] = domain.grid.middle_velocity(at.node);
+    const auto [vx, vy] = domain.grid.forced_velocity(at.node);
+    const auto [wx, wy] = domain.grid.middle_velocity(at.node);
     const auto [ux, uy] = column_velocity(at.row);
     brought += at.dashpot_x * (ux - vx) * ux + at.dashpot_y * (uy - vy) * uy;
-    radiated += at.dashpot_x * (vx - ux) * (vx - ux) + at.dashpot_y * (vy - uy) * (vy - uy);
+    radiated += at.dashpot_x * (ux - vx) * (ux - wx) + at.dashpot_y * (uy - vy) * (uy - wy);
   }
   now[Energy::radiated_sides] += dt * radiated;
   if (!column_) return;
@@ -178,7 +190,7 @@ double FreeFieldSide::ghost_base_power(const Domain& domain, double dt) const
   for (const FaceNode& at : ghost_nodes_)
   {
     const auto [vx, vy] = domain.grid.middle_velocity(at.node);
-    const auto [cx, cy] = column_velocity(at.row);
+    const auto [cx, cy] = base_velocity(at.row);
     power += at.dashpot_x * (2 * ux - cx) * vx + at.dashpot_y * (2 * uy - cy) * vy;
   }
   return power;

@@ -27,6 +27,7 @@ public:
   std::unique_ptr<Domain> domain;
   std::vector<Eigen::Matrix2d> stress;         ///< of the rows, at the step's start
   std::vector<std::array<double, 2>> velocity; ///< of the grid rows, mean of the step's start and end, m/s
+  std::array<double, 2> base_velocity{};       ///< of the base's face, likewise; with consistent inertia only
   std::vector<std::array<double, 2>> acceleration; ///< of the grid rows, m/s2
   int first_row = 0;                               ///< grid row of the first entry
 
@@ -67,6 +68,8 @@ private:
   void add_ghost_base(Domain& domain, double dt);
   double ghost_base_power(const Domain& domain, double dt) const;
   std::array<double, 2> column_velocity(int row) const;
+  /// What the dashpots below the column met at a row of nodes, m/s.
+  std::array<double, 2> base_velocity(int row) const;
 
   Edge edge_;
   const FreeFieldColumn* column_;

@@ -24,6 +24,8 @@ struct Boundary
   virtual void add_forces(Domain&, double /*dt*/) {}
   /// Last word before the equation of motion: mirrors nodes at a wall.
   virtual void constrain(Domain&) {}
+  /// With consistent inertia, after the equation of motion node by node: forces that several nodes rule.
+  virtual void apply_dashpots(Domain&, double /*dt*/) {}
   /// After a correction of the velocities node by node: mirrors them at a wall again.
   virtual void mirror_velocities(Domain&) {}
   /// After the equation of motion: adds to `now` what its own forces did to the ground in the step, with the

@@ -35,7 +35,8 @@ void Grid::build(std::vector<BlockIndex> wanted, bool with_dashpots)
   const std::size_t count = nodes();
   for (auto* field : {&mass, &momentum_x, &momentum_y, &force_x, &force_y, &velocity_x, &velocity_y})
     field->assign(count, 0.0);
-  for (auto* field : {&dashpot_x, &dashpot_y}) field->assign(with_dashpots ? count : 0, 0.0);
+  for (auto* field : {&dashpot_x, &dashpot_y, &face_dashpot_x, &face_dashpot_y})
+    field->assign(with_dashpots ? count : 0, 0.0);
   share.clear();
   for (auto* field : {&change_x, &change_y, &linked_mass}) field->clear();
 }
@@ -43,7 +44,8 @@ void Grid::build(std::vector<BlockIndex> wanted, bool with_dashpots)
 void Grid::clear(int block)
 {
   const std::size_t from = static_cast<std::size_t>(block) * block_nodes;
-  for (auto* field : {&mass, &momentum_x, &momentum_y, &force_x, &force_y, &dashpot_x, &dashpot_y})
+  for (auto* field : {&mass, &momentum_x, &momentum_y, &force_x, &force_y, &dashpot_x, &dashpot_y,
+                      &face_dashpot_x, &face_dashpot_y})
     if (!field->empty()) std::fill_n(field->begin() + from, block_nodes, 0.0);
 }
 } // namespace mpm

@@ -50,7 +50,9 @@ struct Grid
   std::vector<double> momentum_x, momentum_y;
   std::vector<double> force_x, force_y;
   std::vector<double> dashpot_x,
-      dashpot_y; ///< viscous coefficients in N s/m; empty without absorbing boundaries
+      dashpot_y; ///< of dashpots at the nodes, N s/m per m; empty without absorbing boundaries
+  std::vector<double> face_dashpot_x,
+      face_dashpot_y; ///< of dashpots on the base's face, which act on its velocity; likewise
   std::vector<double> velocity_x, velocity_y; ///< updated velocity v*
   std::vector<double> change_x,
       change_y;                    ///< v* - P/m of the lumped mass, see correct_inertia; empty without it
@@ -67,6 +69,13 @@ struct Grid
     if (mass[node] <= smallest_mass) return {};
     return {0.5 * (momentum_x[node] / mass[node] + velocity_x[node]),
             0.5 * (momentum_y[node] / mass[node] + velocity_y[node])};
+  }
+  /// Mean of a node's velocity before the step and after its forces: what dashpots act on, m/s.
+  std::array<double, 2> forced_velocity(int node) const
+  {
+    if (mass[node] <= smallest_mass) return {};
+    const auto [ax, ay] = velocity_change(node);
+    return {momentum_x[node] / mass[node] + 0.5 * ax, momentum_y[node] / mass[node] + 0.5 * ay};
   }
   /// What the forces on a node changed its velocity by in the step, m/s; zero where it stays at rest.
   std::array<double, 2> velocity_change(int node) const

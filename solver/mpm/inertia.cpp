@@ -9,9 +9,16 @@ namespace
 constexpr double coefficient =
     1.0 / 3; // half the second moment of the product of two cubic splines, over h^2
 constexpr double none_below = 0.4, all_above = 0.75; // least over greatest mass of three nodes in a line
-constexpr double greatest_dashpot = 4;               // dt c / m
+constexpr double strong = 4;                         // dt c / m of a dashpot that rules its node
 
 constexpr int first = tile_margin; // of the block's own nodes in its tile
+
+/// Of a side or of the base: each by itself, so that corners are as columns are.
+double greatest_dashpot(const Grid& g, int node)
+{
+  return std::max(std::max(g.dashpot_x[node], g.dashpot_y[node]),
+                  std::max(g.face_dashpot_x[node], g.face_dashpot_y[node]));
+}
 
 /// Change of the nodes' velocities by the equation of motion, and the mass that takes part.
 void prepare(Grid& g, int block, double dt)
@@ -24,8 +31,8 @@ void prepare(Grid& g, int block, double dt)
     const double inverse = 1 / (active ? m : 1);
     g.change_x[k] = active ? g.velocity_x[k] - g.momentum_x[k] * inverse : 0;
     g.change_y[k] = active ? g.velocity_y[k] - g.momentum_y[k] * inverse : 0;
-    const double dashpot = dashpots ? std::max(g.dashpot_x[k], g.dashpot_y[k]) : 0;
-    g.linked_mass[k] = active && dt * dashpot < greatest_dashpot * m ? m : 0;
+    const double dashpot = dashpots ? greatest_dashpot(g, k) : 0;
+    g.linked_mass[k] = active && dt * dashpot < strong * m ? m : 0;
   }
 }
 
@@ -38,9 +45,10 @@ inline double greater(double a, double b)
   return a > b ? a : b;
 }
 
-/// A third of m_ij between each node of a tile and the next one `step` places on.
+/// A third of m_ij between each node of a tile and the next one `step` places on; where `face` is not zero,
+/// unequal masses do not fade it.
 template <int step>
-void link(const Tile& mass, Tile& links)
+void link(const Tile& mass, const Tile& face, Tile& links)
 {
   Tile evenness;
   const double* __restrict m = mass.value.data();
@@ -53,7 +61,7 @@ void link(const Tile& mass, Tile& links)
     const double least = lesser(lesser(a, b), c), greatest = greater(greater(a, b), c);
     const double ratio = least / greater(greatest, std::numeric_limits<double>::min());
     const double share = (ratio - none_below) * (1 / (all_above - none_below));
-    e[t] = greater(lesser(share, 1), 0);
+    e[t] = face.value[t] > 0 ? 1 : greater(lesser(share, 1), 0);
   }
   for (int t = 0; t < tile_size - step; ++t)
     out[t] = coefficient * lesser(m[t], m[t + step]) * lesser(e[t], e[t + step]);
@@ -84,10 +92,12 @@ void correct_block(Grid& g, int block)
   const int begin = block * block_nodes;
   const auto own = g.linked_mass.begin() + begin;
   if (std::all_of(own, own + block_nodes, [](double m) { return m <= 0; })) return;
-  Tile mass, across, up, change;
+  Tile mass, across, up, change, face;
   read_tile(g, g.neighbours[block], g.linked_mass, mass);
-  link<1>(mass, across);
-  link<tile_stride>(mass, up);
+  face.value.fill(0);
+  link<1>(mass, face, across);
+  if (!g.face_dashpot_x.empty()) read_tile(g, g.neighbours[block], g.face_dashpot_x, face);
+  link<tile_stride>(mass, face, up);
   read_tile(g, g.neighbours[block], g.change_x, change);
   add_exchange(mass, across, up, change, &g.velocity_x[begin]);
   read_tile(g, g.neighbours[block], g.change_y, change);

@@ -148,6 +148,7 @@ void solve_grid(Domain& domain, double dt)
       });
   if (domain.consistent_inertia)
   {
+    for (const auto& boundary : domain.boundaries) boundary->apply_dashpots(domain, dt);
     correct_inertia(domain, dt);
     hold_resting_nodes(domain);
     grid.for_each_block([&](int k) { works[k] = work_of_block(grid, k, a, true); });

@@ -1,4 +1,5 @@
 #include "test/verification/cases.hpp"
+#include "io/units.hpp"
 #include "test/verification/column.hpp"
 
 #include <cmath>
@@ -36,13 +37,26 @@ Arrival compare(const std::string& name, const std::vector<double>& time, const 
 
 Findings run_uniform_column(const std::filesystem::path& folder, double spacing)
 {
-  const Case scene = scene_at(folder, spacing);
   const auto reference = read_table(folder / "reference.csv");
   const std::vector<double>& time = reference.at("time");
-  const Trace trace = shake_column(scene, wave_of(scene), time.at(0));
-  const Arrival s = compare("S wave", time, trace.x, reference.at("velocity_x"));
-  const Arrival p = compare("P wave", time, trace.y, reference.at("velocity_y"));
-  return {{{"S", s.error}, {"S second arrival", s.second}, {"P", p.error}, {"P second arrival", p.second}},
-          {s.curve, p.curve}};
+  Findings findings;
+  for (const std::string inertia : {"lumped", "consistent"})
+  {
+    const Case scene = load_case(
+        folder / "case.yaml", {"grid.spacing=" + number_text(spacing) + " m", "seismic.inertia=" + inertia});
+    const Trace trace = shake_column(scene, wave_of(scene), time.at(0));
+    const std::string which = inertia == "lumped" ? "" : ", " + inertia;
+    const auto compared =
+        [&](const std::string& wave, const std::vector<double>& model, const std::string& column)
+    {
+      const Arrival arrival = compare(wave + " wave" + which, time, model, reference.at(column));
+      findings.errors[wave + which] = arrival.error;
+      findings.errors[wave + " second arrival" + which] = arrival.second;
+      findings.curves.push_back(arrival.curve);
+    };
+    compared("S", trace.x, "velocity_x");
+    compared("P", trace.y, "velocity_y");
+  }
+  return findings;
 }
 } // namespace mpm::verification

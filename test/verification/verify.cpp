@@ -11,7 +11,10 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <atomic>
+#include <future>
 #include <iostream>
+#include <mutex>
 
 using namespace mpm::verification;
 
@@ -22,7 +25,7 @@ struct Options
   std::string out;
   std::vector<std::string> only;
   bool list = false, quick = false;
-  int threads = 1;
+  int threads = 1, jobs = 1;
 };
 
 void list_cases()
@@ -31,25 +34,40 @@ void list_cases()
     std::cout << fmt::format("{:<18} {}\n", one.name, load_ladder(one.name).title);
 }
 
+/// Runs cases side by side in so many jobs, the last first: they take longest.
+std::vector<Result> climb_all(const Options& options, const std::vector<const LadderCase*>& wanted)
+{
+  std::vector<Result> results(wanted.size());
+  std::atomic<std::size_t> taken = 0;
+  std::mutex printing;
+  const auto work = [&]
+  {
+    mpm::parallel::use_threads(options.threads); // of loops that this thread starts
+    for (std::size_t k; (k = taken++) < wanted.size();)
+    {
+      const std::size_t at = wanted.size() - 1 - k;
+      const Ladder ladder = load_ladder(wanted[at]->name);
+      results[at] = climb(*wanted[at], ladder, options.quick ? ladder.quick : ladder.full);
+      const std::lock_guard lock(printing);
+      for (const Row& row : results[at].rows) std::cerr << table_line(row) << '\n';
+    }
+  };
+  std::vector<std::future<void>> jobs;
+  for (int k = 0; k < options.jobs; ++k) jobs.push_back(std::async(std::launch::async, work));
+  for (auto& job : jobs) job.get();
+  return results;
+}
+
 int verify(const Options& options)
 {
-  mpm::parallel::use_threads(options.threads);
   std::vector<const LadderCase*> wanted;
   for (const std::string& name : options.only) wanted.push_back(&ladder_case(name));
   if (wanted.empty())
     for (const LadderCase& one : ladder_cases()) wanted.push_back(&one);
-  std::vector<Result> results;
+  const std::vector<Result> results = climb_all(options, wanted);
   bool pass = true;
-  for (const LadderCase* one : wanted)
-  {
-    const Ladder ladder = load_ladder(one->name);
-    results.push_back(climb(*one, ladder, options.quick ? ladder.quick : ladder.full));
-    for (const Row& row : results.back().rows)
-    {
-      std::cerr << table_line(row) << '\n';
-      pass = pass && row.pass();
-    }
-  }
+  for (const Result& result : results)
+    for (const Row& row : result.rows) pass = pass && row.pass();
   write_table(options.out, results);
   write_curves(options.out, results);
   return pass ? 0 : 1;
@@ -63,7 +81,10 @@ int main(int argc, char** argv)
       "Runs the verification ladder of cases/verification: exit code 0 when every row passes, 1 when not"};
   app.add_option("--out", options.out, "folder for RESULTS.md and results.json");
   app.add_option("--only", options.only, "these cases only")->delimiter(',');
-  app.add_option("--threads", options.threads, "threads")->capture_default_str();
+  app.add_option("--threads", options.threads, "threads of each job")->capture_default_str();
+  app.add_option("--jobs", options.jobs, "cases that run side by side")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   app.add_flag("--quick", options.quick, "the coarse resolutions of the default tests");
   app.add_flag("--list", options.list, "names and titles of the cases");
   CLI11_PARSE(app, argc, argv);
