@@ -10,7 +10,8 @@ namespace
 /// Two blocks of different materials that hit each other, over several grid blocks.
 Domain collision()
 {
-  const Body left{elastic(2e7, 0.25), {-9.3, -3.2, 9, 11}}, right{von_mises(2e4, 5e3, 0.1, 1e7), {1.2, -2.7, 8, 9}};
+  const Body left{elastic(2e7, 0.25), {-9.3, -3.2, 9, 11}},
+      right{von_mises(2e4, 5e3, 0.1, 1e7), {1.2, -2.7, 8, 9}};
   Domain domain = make_domain({left, right}, 1, 0.4, 41);
   random_velocities(domain, 0.5, 42);
   random_affine(domain, 0.5, 43);
@@ -21,7 +22,10 @@ Domain collision()
   return domain;
 }
 
-double step_size() { return 0.5 / elastic(2e7, 0.25).pressure_speed(); }
+double step_size()
+{
+  return 0.5 / elastic(2e7, 0.25).pressure_speed();
+}
 
 /// A signed permutation of the axes: x' = xx x + xy y and so on, and a shift in whole cells.
 struct Motion
@@ -62,8 +66,8 @@ void apply(const Motion& m, Particles& p)
   }
 }
 
-/// Greatest difference of a run and of the same run after a motion of the scene, relative to each field's greatest
-/// value.
+/// Greatest difference of a run and of the same run after a motion of the scene, relative to each field's
+/// greatest value.
 double difference_after(const Motion& motion, int steps)
 {
   const Threads one(1);
@@ -165,8 +169,8 @@ TEST_CASE("Sorting keeps every particle whole and its place by id", "[mpm]")
   CHECK(next == p.size());
 }
 
-// Round-off enters with 1e-16 times the coordinate in cells (up to 30) and is carried on by 200 steps of an impact
-// that amplifies it little: yielding is a continuous function of the state.
+// Round-off enters with 1e-16 times the coordinate in cells (up to 30) and is carried on by 200 steps of an
+// impact that amplifies it little: yielding is a continuous function of the state.
 TEST_CASE("A scene moved by whole cells goes on as before", "[mpm]")
 {
   CHECK(difference_after({1, 0, 0, 1, 3, -5}, 200) < 1e-12);

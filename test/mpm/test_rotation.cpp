@@ -14,8 +14,8 @@ struct Spun
   double turns = 0, stress = 0, early = 0, late = 0, volume = 0;
 };
 
-/// Lets a free block of 4 x 4 cells spin about its centre. Stresses are measured in rho omega^2 R^2, R being half
-/// its diagonal: `early` and `late` over the tenth and the last turn, `stress` over all.
+/// Lets a free block of 4 x 4 cells spin about its centre. Stresses are measured in rho omega^2 R^2, R being
+/// half its diagonal: `early` and `late` over the tenth and the last turn, `stress` over all.
 Spun spin(double rate, double turns)
 {
   Domain domain = make_domain({{elastic(), {-2, -2, 4, 4}}});
@@ -68,18 +68,19 @@ constexpr int steps_of_100_turns = 100000;
 constexpr double step_angle = 2e-3 * std::numbers::pi;
 } // namespace
 
-// A spinning block is under the centrifugal stress, of the order of rho omega^2 R^2. What is asked is that a hundred
-// turns add nothing to it.
+// A spinning block is under the centrifugal stress, of the order of rho omega^2 R^2. What is asked is that a
+// hundred turns add nothing to it.
 TEST_CASE("A block that spins a hundred turns has the centrifugal stress and no other", "[mpm]")
 {
   const Threads one(1);
   const double rate = 0.05 * elastic().pressure_speed() / std::sqrt(8.0);
   const Spun fast = spin(rate, 100);
   CHECK(fast.turns >= 100); // it keeps its size, so that its angular momentum keeps the rate
-  CHECK(fast.stress < 1);        // twice the static value, 0.4, when the load is put on suddenly
-  // The first swing has died away by then. A corner's stress goes by where it stands in its cells: a tenth or so.
+  CHECK(fast.stress < 1);   // twice the static value, 0.4, when the load is put on suddenly
+  // The first swing has died away by then. A corner's stress goes by where it stands in its cells: a tenth or
+  // so.
   CHECK(fast.late < 1.2 * fast.early);
-  CHECK(fast.volume < 0.01);     // strains are rho omega^2 R^2 / E = 3e-3
+  CHECK(fast.volume < 0.01); // strains are rho omega^2 R^2 / E = 3e-3
   // At a tenth of the rate a hundredth of the stress is left: nothing here goes with the angle alone.
   CHECK(spin(rate / 10, 2).stress < 1);
 }
@@ -107,8 +108,8 @@ TEST_CASE("A stress turns with the particle and keeps its invariants", "[mpm]")
   p.stress_zz[0] = zz;
   p.stress_xy[0] = xy;
   for (int k = 0; k < steps_of_100_turns; ++k) point.turn(step_angle);
-  // A step rounds off by 1e-16 of E, 40 times the stress, and by a unit of the stress; if it is always to the same
-  // side, 1e5 steps make 4e-10 of it.
+  // A step rounds off by 1e-16 of E, 40 times the stress, and by a unit of the stress; if it is always to the
+  // same side, 1e5 steps make 4e-10 of it.
   const double deviator = std::hypot(0.5 * (xx - yy), xy);
   CHECK(std::fabs(p.stress_xx[0] + p.stress_yy[0] - (xx + yy)) / deviator < 1e-9);
   CHECK(std::fabs(std::hypot(0.5 * (p.stress_xx[0] - p.stress_yy[0]), p.stress_xy[0]) / deviator - 1) < 1e-9);
@@ -132,8 +133,8 @@ TEST_CASE("A stress turns with the particle and keeps its invariants", "[mpm]")
 
 TEST_CASE("A stressed block turns its stress by the angle it has turned", "[mpm]")
 {
-  // Out-of-plane stress alone is in equilibrium at a free edge; in-plane, the block's mean stress is not, so the
-  // particles are too heavy to be moved by it: c dt / h = 5e-5.
+  // Out-of-plane stress alone is in equilibrium at a free edge; in-plane, the block's mean stress is not, so
+  // the particles are too heavy to be moved by it: c dt / h = 5e-5.
   const Threads one(1);
   Elastic law = elastic(1e6, 0.3, 2e11);
   Domain domain = make_domain({{law, {-2, -2, 4, 4}}});
@@ -151,11 +152,13 @@ TEST_CASE("A stressed block turns its stress by the angle it has turned", "[mpm]
   }
   const int steps = 10;
   run(domain, steps, dt);
-  // Shear part only: nothing holds the particles on their circles, so the flight strains them by steps (w dt)^2 / 2.
+  // Shear part only: nothing holds the particles on their circles, so the flight strains them by steps (w
+  // dt)^2 / 2.
   const double angle = steps * rate * dt, c = std::cos(2 * angle), s = std::sin(2 * angle);
   const double strain = steps * steps * rate * rate * dt * dt;
   double worst = 0;
   for (int k = 0; k < p.size(); ++k)
     worst = std::max(worst, std::fabs(p.stress_xy[k] - (0.5 * (xx - yy) * s + xy * c)));
-  CHECK(worst < 0.01 * strain * law.shear_modulus()); // the flight is all round: its shear is far below its strain
+  CHECK(worst <
+        0.01 * strain * law.shear_modulus()); // the flight is all round: its shear is far below its strain
 }

@@ -18,9 +18,9 @@ Domain shaken_block()
 }
 } // namespace
 
-// Symplectic Euler keeps v^n . v^{n+1} / 2 + U(sigma^n), not v^n . v^n / 2 + U(sigma^n), which swings about it by
-// omega dt / 2. From random velocities the first transfers take out what the grid cannot carry, far more than that
-// swing, so that the plain sum may be held against its start.
+// Symplectic Euler keeps v^n . v^{n+1} / 2 + U(sigma^n), not v^n . v^n / 2 + U(sigma^n), which swings about
+// it by omega dt / 2. From random velocities the first transfers take out what the grid cannot carry, far
+// more than that swing, so that the plain sum may be held against its start.
 TEST_CASE("Up to the Courant number 0.78 a free elastic block never gains energy", "[mpm]")
 {
   const Threads one(1);
@@ -44,8 +44,9 @@ TEST_CASE("Up to the Courant number 0.78 a free elastic block never gains energy
   }
 }
 
-// A lone particle is the first to go, beyond 0.93 (METHODS section 7): its C and stress swing ever further while its
-// velocity stays, so that it is its volume that tells. A block with full cells follows between 1.3 and 1.5.
+// A lone particle is the first to go, beyond 0.93 (METHODS section 7): its C and stress swing ever further
+// while its velocity stays, so that it is its volume that tells. A block with full cells follows between 1.3
+// and 1.5.
 TEST_CASE("At the Courant number 1.3 a lone particle blows up and is caught within 1000 steps", "[mpm]")
 {
   const Threads one(1);
@@ -74,7 +75,8 @@ TEST_CASE("At the Courant number 0.9 a lone particle comes to rest", "[mpm]")
   Domain domain = make_domain({{elastic(), {0, 0, 0.5, 0.5}}});
   random_affine(domain, speed, 33);
   run(domain, 1000, 0.9 / elastic().pressure_speed());
-  // Its spin w stays, and with it C_xx = w^2 dt or 4e-8 1/s, as the spin is integrated; the straining dies away.
+  // Its spin w stays, and with it C_xx = w^2 dt or 4e-8 1/s, as the spin is integrated; the straining dies
+  // away.
   CHECK(std::fabs(domain.particles.affine_xx[0]) < 1e-4 * speed);
   CHECK(greatest(domain.particles.stress_xx) / elastic().young < 1e-8);
 }

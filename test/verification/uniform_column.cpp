@@ -1,5 +1,5 @@
-#include "test/verification/cases.hpp"
 #include "io/units.hpp"
+#include "test/verification/cases.hpp"
 #include "test/verification/column.hpp"
 
 #include <cmath>
