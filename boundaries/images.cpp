@@ -277,7 +277,7 @@ void FrozenImages::add_forces(Domain& domain, double)
   const std::array<double, 2> now = blocks_.add_forces(domain, images_, {});
   if (resultant_.empty()) resultant_.push_back(now);
   // Sleeping ground hides its images: the correction stays what it was, as the ground does.
-  if (static_cast<int>(domain.homes.size()) == static_cast<int>(domain.awake.items.size()))
+  if (!domain.rests())
     correction_[0] = {(resultant_[0][0] - now[0]) / mass_, (resultant_[0][1] - now[1]) / mass_};
   const auto [ax, ay] = correction_[0];
   Grid& g = domain.grid;

@@ -69,8 +69,8 @@ void MirroredWall::constrain(Domain& domain)
     fold(g.force_x[inside], g.force_x[ghost], sx);
     fold(g.force_y[inside], g.force_y[ghost], sy);
   }
-  if (!g.dashpot_x.empty())
-    for (auto* field : {&g.dashpot_x, &g.dashpot_y, &g.face_dashpot_x, &g.face_dashpot_y})
+  for (auto* field : {&g.dashpot_x, &g.dashpot_y, &g.face_dashpot_x, &g.face_dashpot_y})
+    if (!field->empty())
     {
       for (const auto& [inside, ghost] : pairs_) fold((*field)[inside], (*field)[ghost], 1);
       for (const int node : on_wall_) (*field)[node] *= 2;

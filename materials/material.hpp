@@ -8,6 +8,7 @@
 #include <array>
 #include <span>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -55,6 +56,10 @@ struct Material
     for (std::size_t f = 0; f < state.size(); ++f)
       if (fields[f].name == name) return &state[f];
     return nullptr;
+  }
+  std::vector<double>* field(std::string_view name)
+  {
+    return const_cast<std::vector<double>*>(std::as_const(*this).field(name));
   }
   /// Energy in J per m3 of undeformed volume that plastic flow has dissipated at the material's k-th
   /// particle.

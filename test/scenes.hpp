@@ -255,4 +255,25 @@ inline double strain_energy(const Domain& domain)
   }
   return sum;
 }
+
+/// Kinetic and elastic energy of a free run over the kinetic energy at its start.
+struct EnergyShares
+{
+  double greatest, early, last; ///< of all steps, after 301 steps, at the end
+};
+
+inline EnergyShares energy_shares(Domain& domain, int steps, double dt)
+{
+  const double start = kinetic_energy(domain);
+  EnergyShares shares{};
+  for (int k = 0; k < steps; ++k)
+  {
+    step(domain, dt);
+    shares.last = (kinetic_energy(domain) + strain_energy(domain)) / start;
+    if (!std::isfinite(shares.last)) throw std::runtime_error("the run blew up");
+    shares.greatest = std::max(shares.greatest, shares.last);
+    if (k == 300) shares.early = shares.last;
+  }
+  return shares;
+}
 } // namespace scenes

@@ -99,7 +99,7 @@ void rebuild(Domain& domain)
 {
   const auto absorbing = [](const auto& boundary) { return boundary->absorbs(); };
   const bool dashpots = std::any_of(domain.boundaries.begin(), domain.boundaries.end(), absorbing);
-  domain.grid.build(with_surroundings(domain), dashpots);
+  domain.grid.build(with_surroundings(domain), dashpots, dashpots && domain.consistent_inertia);
   for (Home& home : domain.homes) home.around = domain.grid.around(home.block);
   bind_rest(domain);
   find_places(domain);

@@ -85,6 +85,8 @@ struct Domain
   std::array<parallel::Group, 4> colours; ///< the same, by colour; those of one share no node
   std::vector<int> home_in;               ///< place of a grid block's home, -1 if it has none
   Rest rest;
+  /// Whether some ground sleeps.
+  bool rests() const { return awake.items.size() < homes.size(); }
   std::vector<int> place; ///< where a particle id stands now
   double drift = 0;       ///< cells that a particle may have moved since the last sort
   Balance balance;

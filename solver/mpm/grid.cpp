@@ -27,7 +27,7 @@ Neighbours Grid::around(BlockIndex block) const
   return result;
 }
 
-void Grid::build(std::vector<BlockIndex> wanted, bool with_dashpots)
+void Grid::build(std::vector<BlockIndex> wanted, bool with_dashpots, bool with_face_dashpots)
 {
   blocks = std::move(wanted);
   neighbours.clear();
@@ -35,8 +35,8 @@ void Grid::build(std::vector<BlockIndex> wanted, bool with_dashpots)
   const std::size_t count = nodes();
   for (auto* field : {&mass, &momentum_x, &momentum_y, &force_x, &force_y, &velocity_x, &velocity_y})
     field->assign(count, 0.0);
-  for (auto* field : {&dashpot_x, &dashpot_y, &face_dashpot_x, &face_dashpot_y})
-    field->assign(with_dashpots ? count : 0, 0.0);
+  for (auto* field : {&dashpot_x, &dashpot_y}) field->assign(with_dashpots ? count : 0, 0.0);
+  for (auto* field : {&face_dashpot_x, &face_dashpot_y}) field->assign(with_face_dashpots ? count : 0, 0.0);
   share.clear();
   for (auto* field : {&change_x, &change_y, &linked_mass}) field->clear();
 }

@@ -52,7 +52,8 @@ struct Grid
   std::vector<double> dashpot_x,
       dashpot_y; ///< of dashpots at the nodes, N s/m per m; empty without absorbing boundaries
   std::vector<double> face_dashpot_x,
-      face_dashpot_y; ///< of dashpots on the base's face, which act on its velocity; likewise
+      face_dashpot_y; ///< of dashpots on the base's face, which act on its velocity; empty
+                      ///< without them and with the lumped mass
   std::vector<double> velocity_x, velocity_y; ///< updated velocity v*
   std::vector<double> change_x,
       change_y;                    ///< v* - P/m of the lumped mass, see correct_inertia; empty without it
@@ -92,7 +93,7 @@ struct Grid
   int node(int i, int j) const;
   Neighbours around(BlockIndex block) const;
   /// Makes the grid of exactly these blocks (sorted, unique) and sizes the node fields.
-  void build(std::vector<BlockIndex> wanted, bool with_dashpots);
+  void build(std::vector<BlockIndex> wanted, bool with_dashpots, bool with_face_dashpots);
   void clear(int block);
   /// Calls f(place in blocks) for all blocks, on all threads.
   template <class Function>

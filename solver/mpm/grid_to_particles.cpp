@@ -234,9 +234,7 @@ void grid_to_particles(Domain& domain, double dt)
   std::vector<double> moves(domain.homes.size());
   parallel::for_each(domain.awake, [&](int k) { moves[k] = update_home(domain, domain.homes[k], dt); });
   domain.greatest_move = moves.empty() ? 0 : *std::max_element(moves.begin(), moves.end());
-  std::vector<double> speeds(moves);
-  for (double& speed : speeds) speed *= domain.grid.spacing / dt;
-  watch_rest(domain, speeds, dt);
+  watch_rest(domain, moves, dt);
   move_tracers(domain, dt);
 }
 } // namespace mpm

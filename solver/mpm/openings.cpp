@@ -23,10 +23,9 @@ void limit_openings(Domain& domain)
   const double reach = 4 * domain.grid.spacing;
   for (std::size_t m = 0; m < domain.materials.size(); ++m)
   {
-    Material& material = domain.materials[m];
-    for (std::size_t f = 0; f < material.state.size(); ++f)
-      if (material.state_fields()[f].name == "opening")
-        limit(material.state[f], &domain.particles.volume[domain.material_begin[m]], reach * reach);
+    std::vector<double>* opening = domain.materials[m].field("opening");
+    if (opening == nullptr) continue;
+    limit(*opening, &domain.particles.volume[domain.material_begin[m]], reach * reach);
   }
 }
 } // namespace mpm

@@ -112,7 +112,7 @@ void hold_resting_nodes(Domain& domain)
   }
 }
 
-void watch_rest(Domain& domain, std::span<const double> speeds, double dt)
+void watch_rest(Domain& domain, std::span<const double> moves, double dt)
 {
   Rest& rest = domain.rest;
   if (rest.below <= 0) return;
@@ -121,8 +121,9 @@ void watch_rest(Domain& domain, std::span<const double> speeds, double dt)
   for (const int k : domain.awake.items)
   {
     Home& home = domain.homes[k];
-    home.greatest = std::max(home.greatest, speeds[k]);
-    if (speeds[k] >= rest.below) changed |= wake_beside(domain, home);
+    const double speed = moves[k] * domain.grid.spacing / dt;
+    home.greatest = std::max(home.greatest, speed);
+    if (speed >= rest.below) changed |= wake_beside(domain, home);
   }
   rest.watched += dt;
   if (rest.watched >= Rest::window)

@@ -22,7 +22,7 @@ struct Rest
 {
   static constexpr double window = 1; ///< s
   double below = 0;                   ///< m/s; 0: nothing rests
-  double watched = 0;                 ///< time since ground last fell asleep, s
+  double watched = 0;                 ///< time for which ground has been watched, s
   std::int64_t skipped = 0;           ///< particle-steps
   std::vector<int> held;              ///< nodes
 };
@@ -38,8 +38,8 @@ void bind_rest(Domain& domain);
 void hold_resting_nodes(Domain& domain);
 
 /// After a step of dt s: wakes what has something moving beside it, lets fall asleep what has come to rest.
-/// `speeds` are the greatest of each home's particles, m/s.
-void watch_rest(Domain& domain, std::span<const double> speeds, double dt);
+/// `moves` are the greatest displacements of each home's particles in it, in cells.
+void watch_rest(Domain& domain, std::span<const double> moves, double dt);
 
 /// Saves or loads what rests, of homes in place.
 void visit_rest(StateVisitor& visitor, Domain& domain);
