@@ -35,12 +35,13 @@ std::vector<std::array<double, 2>> BaseSpring::follow(const std::vector<std::arr
   stretch_.resize(distance.size(), {});
   reaction_.resize(distance.size(), {});
   const double share = -std::expm1(-dt / (lag * time_)); // exact for a distance that stays over the step
+  const double learnt = dt / (take_over * time_), inverse = 1 / time_;
   for (std::size_t k = 0; k < distance.size(); ++k)
     for (int c = 0; c < 2; ++c)
     {
       stretch_[k][c] += share * (distance[k][c] - stretch_[k][c]);
-      reaction_[k][c] += dt / (take_over * time_) * stretch_[k][c];
-      far_end[k][c] = (stretch_[k][c] + reaction_[k][c]) / time_;
+      reaction_[k][c] += learnt * stretch_[k][c];
+      far_end[k][c] = inverse * (stretch_[k][c] + reaction_[k][c]);
     }
   return far_end;
 }

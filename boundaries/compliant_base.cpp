@@ -32,6 +32,7 @@ std::vector<std::array<double, 2>> CompliantBase::stretch_spring(const Domain& d
 {
   if (!spring_.acts()) return {};
   std::vector<std::array<double, 2>> behind; // what a face lacks to the free field
+  behind.reserve(faces_.size());
   for (const Face& face : faces_)
   {
     const auto [x, y] = distance(domain, free_field_, face);

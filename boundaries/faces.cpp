@@ -32,73 +32,76 @@ std::vector<Face> find_faces(const Domain& domain, Edge edge, double position, d
   return faces;
 }
 
-/// Sums at the 16 nodes of one cell's stencil, kept while one face after the other stands in that cell.
-struct FaceNodes::CellSums
+namespace
 {
-  int i, j; ///< first node
-  Row dashpot_x[4]{}, dashpot_y[4]{}, drive_x[4]{}, drive_y[4]{};
+/// What a face's dashpots bring to a node per unit of weight: the dashpots and the force of their far ends,
+/// as in FaceNode.
+Row brought(const Face& face, const std::array<double, 2>& far_end)
+{
+  return Row{face.dashpot_x, face.dashpot_y, face.dashpot_x * far_end[0], face.dashpot_y * far_end[1]};
+}
 
-  void add(const Stencil& x, const Stencil& y, const Face& face, const std::array<double, 2>& far_end)
+void add(Row (&nodes)[16], const Row& x_weight, const Row& y_weight, const Row& brought)
+{
+  for (int row = 0; row < 4; ++row)
   {
-    for (int row = 0; row < 4; ++row)
+    const Row weight = y_weight[row] * x_weight;
+#pragma GCC unroll 4
+    for (int column = 0; column < 4; ++column) nodes[4 * row + column] += weight[column] * brought;
+  }
+}
+} // namespace
+
+void FaceNodes::lay_out(const Grid& grid)
+{
+  grid_ = grid.built;
+  slots_.clear();
+  nodes_.clear();
+  NodeFinder find(grid);
+  std::vector<int> slot(grid.nodes() + 1, -1); // the last one is that of no node
+  for (const Cell& cell : cells_)
+  {
+    find.move_to(cell.i, cell.j);
+    Slots& slots = slots_.emplace_back(Slots{cell.i, cell.j, {}});
+    for (int k = 0; k < 16; ++k)
     {
-      const Row weight = y.weight[row] * x.weight;
-      dashpot_x[row] += face.dashpot_x * weight;
-      dashpot_y[row] += face.dashpot_y * weight;
-      drive_x[row] += (face.dashpot_x * far_end[0]) * weight;
-      drive_y[row] += (face.dashpot_y * far_end[1]) * weight;
+      const int column = cell.i + k % 4, row = cell.j + k / 4, node = find(column, row);
+      if (node >= 0 && slot[node] < 0)
+      {
+        slot[node] = static_cast<int>(nodes_.size());
+        nodes_.push_back({node, grid.wrapped ? 0 : column, row, 0, 0, 0, 0});
+      }
+      slots.at[k] = node < 0 ? -1 : slot[node];
     }
   }
-};
-
-void FaceNodes::add(const Grid& grid, const NodeFinder& find, const CellSums& sums)
-{
-  slot_.resize(grid.nodes(), -1);
-  for (int row = 0; row < 4; ++row)
-    for (int column = 0; column < 4; ++column)
-    {
-      const int node = find(sums.i + column, sums.j + row);
-      if (node < 0) continue;
-      if (slot_[node] < 0)
-      {
-        slot_[node] = static_cast<int>(nodes_.size());
-        nodes_.push_back({node, grid.wrapped ? 0 : sums.i + column, sums.j + row, 0, 0, 0, 0});
-      }
-      FaceNode& at = nodes_[slot_[node]];
-      at.dashpot_x += sums.dashpot_x[row][column];
-      at.dashpot_y += sums.dashpot_y[row][column];
-      at.drive_x += sums.drive_x[row][column];
-      at.drive_y += sums.drive_y[row][column];
-    }
 }
 
 void FaceNodes::find(const Domain& domain, const std::vector<Face>& faces,
                      std::span<const std::array<double, 2>> far_end)
 {
   const Grid& g = domain.grid;
-  NodeFinder find(g);
-  nodes_.clear();
-  std::optional<CellSums> sums;
-  const auto flush = [&]
-  {
-    if (!sums) return;
-    find.move_to(sums->i, sums->j);
-    add(g, find, *sums);
-  };
+  cells_.clear();
   for (std::size_t k = 0; k < faces.size(); ++k)
   {
     const int at = domain.place[faces[k].particle];
     const Stencil x = cubic_stencil(domain.particles.x[at] + faces[k].offset_x - g.origin_x, g.spacing);
     const Stencil y = cubic_stencil(domain.particles.y[at] + faces[k].offset_y - g.origin_y, g.spacing);
-    if (!sums || sums->i != x.first || sums->j != y.first)
-    {
-      flush();
-      sums = CellSums{x.first, y.first};
-    }
-    sums->add(x, y, faces[k], far_end.empty() ? std::array<double, 2>{} : far_end[k]);
+    if (cells_.empty() || cells_.back().i != x.first || cells_.back().j != y.first)
+      cells_.push_back({x.first, y.first});
+    const auto end = far_end.empty() ? std::array<double, 2>{} : far_end[k];
+    add(cells_.back().at, x.weight, y.weight, brought(faces[k], end));
   }
-  flush();
-  for (const FaceNode& at : nodes_) slot_[at.node] = -1;
+  const auto same = [](const Cell& cell, const Slots& slots) { return cell.i == slots.i && cell.j == slots.j; };
+  if (grid_ != g.built || !std::equal(cells_.begin(), cells_.end(), slots_.begin(), slots_.end(), same))
+    lay_out(g);
+  for (FaceNode& node : nodes_) store_row(&node.dashpot_x, Row{});
+  for (std::size_t c = 0; c < cells_.size(); ++c)
+    for (int k = 0; k < 16; ++k)
+    {
+      if (slots_[c].at[k] < 0) continue;
+      double* const sum = &nodes_[slots_[c].at[k]].dashpot_x;
+      store_row(sum, load_row(sum) + cells_[c].at[k]);
+    }
 }
 
 void visit_faces(StateVisitor& visitor, std::string prefix, std::vector<Face>& faces)

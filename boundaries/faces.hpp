@@ -49,11 +49,25 @@ public:
   auto end() const { return nodes_.end(); }
 
 private:
-  struct CellSums;
-  void add(const Grid& grid, const NodeFinder& find, const CellSums& sums);
+  /// Sums at the 16 nodes of one cell's stencil, of the faces that stand in that cell one after the other.
+  struct Cell
+  {
+    int i, j; ///< first node
+    Row at[16]{};
+  };
+  /// Which of nodes_ are the 16 of a cell, -1 where there is no node.
+  struct Slots
+  {
+    int i, j;
+    std::array<int, 16> at;
+  };
+  /// Finds the nodes of the cells anew, in an order that goes by the cells alone.
+  void lay_out(const Grid& grid);
 
   std::vector<FaceNode> nodes_;
-  std::vector<int> slot_; ///< of each grid node in nodes_, -1 if none
+  std::vector<Cell> cells_;  ///< of the last step
+  std::vector<Slots> slots_; ///< of each cell
+  int grid_ = 0;             ///< Grid::built when they were found
 };
 
 /// Saves or loads faces, under names that begin with `prefix`.

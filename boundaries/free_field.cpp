@@ -104,10 +104,8 @@ void FreeFieldSide::begin(const Domain& domain, double position, double bottom, 
     Image ghost;
     ghost.parent = id;
     ghost.offset.x() = 2 * (position - p.x[k]);
-    const int row = column_->row_near(p.reference_y[k]);
-    ghost.mass = column_->domain->particles.mass[column_->particle_of_row(row)];
-    ghosts_.push_back(ghost);
-    ghost_row_.push_back(row);
+    ghost.load = column_->row_near(p.reference_y[k]);
+    ghosts_.list.push_back(ghost);
     for (Face face : base)
       if (face.particle == id)
       {
@@ -144,10 +142,21 @@ void FreeFieldSide::add_forces(Domain& domain, double dt)
   }
   if (!column_) return;
   add_ghost_base(domain, dt);
-  std::vector<Eigen::Matrix2d> stress(ghosts_.size());
-  for (std::size_t k = 0; k < ghosts_.size(); ++k)
-    stress[k] = column_->stress[ghost_row_[k]] - static_stress_[ghost_row_[k]]; // eq. (6)
-  blocks_.add_forces(domain, ghosts_, {stress, column_->acceleration, column_->first_row});
+  load_ghosts();
+  ghosts_.add_forces(domain, {column_->acceleration, column_->first_row});
+}
+
+/// Gives the ghosts of each row the dynamic stress (eq. 6) and the mass of the column's.
+void FreeFieldSide::load_ghosts()
+{
+  ghosts_.loads.resize(column_->rows());
+  for (int row = 0; row < column_->rows(); ++row)
+  {
+    const Eigen::Matrix2d stress = column_->stress[row] - static_stress_[row];
+    ghosts_.loads[row] = {.stress_x = {stress(0, 0), stress(1, 0)},
+                          .stress_y = {stress(0, 1), stress(1, 1)},
+                          .mass = column_->domain->particles.mass[column_->particle_of_row(row)]};
+  }
 }
 
 void FreeFieldSide::add_ghost_base(Domain& domain, double dt)
@@ -180,7 +189,7 @@ void FreeFieldSide::measure_work(const Domain& domain, double dt, Energies& now)
   }
   now[Energy::radiated_sides] += dt * radiated;
   if (!column_) return;
-  now[Energy::free_field] += dt * (brought + ghost_base_power(domain, dt)) + blocks_.work(domain, dt);
+  now[Energy::free_field] += dt * (brought + ghost_base_power(domain, dt)) + ghosts_.work(domain, dt);
 }
 
 double FreeFieldSide::ghost_base_power(const Domain& domain, double dt) const
@@ -216,8 +225,7 @@ void FreeFieldSide::visit_state(StateVisitor& visitor)
 {
   visit_faces(visitor, "face_", faces_);
   if (!column_) return;
-  visit_images(visitor, "ghost_", ghosts_);
-  visitor.integers("ghost_row", ghost_row_);
+  ghosts_.visit_list(visitor, "ghost_");
   visit_faces(visitor, "ghost_base_", ghost_base_);
   RecordVisitor<Eigen::Matrix2d> rows(visitor, "static_stress_volume_", static_stress_);
   rows.each("xx", "N m/m", [](auto& stress) -> double& { return stress(0, 0); });

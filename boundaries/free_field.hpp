@@ -56,8 +56,8 @@ public:
 
   std::string_view name() const override { return edge_ == Edge::left ? "left" : "right"; }
   bool absorbs() const override { return true; }
-  void sort(const Domain& domain) override { place_images(domain, ghosts_); }
-  void bind(const Domain& domain) override { blocks_.bind(domain, ghosts_); }
+  void sort(const Domain& domain) override { ghosts_.sort(domain); }
+  void bind(const Domain& domain) override { ghosts_.bind(domain); }
   void add_forces(Domain& domain, double dt) override;
   void measure_work(const Domain& domain, double dt, Energies& now) const override;
   void visit_state(StateVisitor& visitor) override;
@@ -65,6 +65,7 @@ public:
   double separation(const Domain& domain) const;
 
 private:
+  void load_ghosts();
   void add_ghost_base(Domain& domain, double dt);
   double ghost_base_power(const Domain& domain, double dt) const;
   std::array<double, 2> column_velocity(int row) const;
@@ -77,9 +78,7 @@ private:
   std::vector<Face> faces_;
   std::vector<Face> ghost_base_;  ///< base dashpots below the ghost rows
   FaceNodes nodes_, ghost_nodes_; ///< of both, in the last step
-  std::vector<Image> ghosts_;
-  std::vector<std::int64_t> ghost_row_;
+  Images ghosts_;                 ///< their loads are those of the column's rows
   std::vector<Eigen::Matrix2d> static_stress_; ///< of the column's rows at the switch
-  ImageBlocks blocks_;
 };
 } // namespace mpm

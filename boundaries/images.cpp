@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <tuple>
 
 namespace mpm
 {
@@ -13,41 +14,44 @@ namespace
 /// 3).
 constexpr double strip = 4;
 
+/// An image with its load.
+struct Loaded
+{
+  Image image;
+  ImageLoad load;
+};
+
 /// Mirrors an image (or a particle, taken as its own image) at one more wall: X* = M X, Sigma* = S Sigma M.
-Image mirror(const Image& original, const Wall& wall, const Eigen::Vector2d& parent, double wall_position)
+Loaded mirror(const Loaded& original, const Wall& wall, const Eigen::Vector2d& parent, double wall_position)
 {
   const int normal = wall.normal == Direction::x ? 0 : 1;
-  const Eigen::DiagonalMatrix<double, 2> S(wall.image_sign_x(), wall.image_sign_y());
-  const Eigen::DiagonalMatrix<double, 2> M(normal == 0 ? -1 : 1, normal == 1 ? -1 : 1);
-  Image image = original;
-  image.offset[normal] = 2 * wall_position - 2 * parent[normal] - original.offset[normal];
-  image.stress = S * original.stress * M;
-  image.weight = S * original.weight;
-  return image;
+  const double S[] = {wall.image_sign_x(), wall.image_sign_y()};
+  const double M[] = {normal == 0 ? -1. : 1., normal == 1 ? -1. : 1.};
+  auto [image, load] = original;
+  image.offset[normal] = 2 * wall_position - 2 * parent[normal] - image.offset[normal];
+  for (int c = 0; c < 2; ++c)
+  {
+    load.stress_x[c] *= S[c] * M[0];
+    load.stress_y[c] *= S[c] * M[1];
+    load.weight[c] *= S[c];
+  }
+  return {image, load};
 }
-
-/// Order of the images: by block, then as their parents stand, so that neighbours follow each other.
-struct Place
-{
-  BlockIndex block;
-  int parent, image;
-  auto operator<=>(const Place&) const = default;
-};
 } // namespace
 
-std::vector<Image> make_images(const Domain& domain, std::span<const Wall> walls)
+Images make_images(const Domain& domain, std::span<const Wall> walls)
 {
-  std::vector<Image> result;
+  Images result;
   const Particles& p = domain.particles;
   const Grid& g = domain.grid;
-  for (int id = 0; id < p.size(); ++id)
+  for (int k = 0; k < p.size(); ++k) // as they stand, so that neighbours' loads are neighbours
   {
-    const int k = domain.place[id];
-    Image self{.parent = id};
-    self.stress << p.stress_xx[k], p.stress_xy[k], p.stress_xy[k], p.stress_yy[k];
-    self.stress *= p.volume[k];
-    self.weight = p.mass[k] * Eigen::Vector2d(domain.gravity_x, domain.gravity_y);
-    std::vector<Image> family{self};
+    const double V = p.volume[k], m = p.mass[k];
+    const Loaded self{{.parent = p.id[k]},
+                      {.stress_x = {V * p.stress_xx[k], V * p.stress_xy[k]},
+                       .stress_y = {V * p.stress_xy[k], V * p.stress_yy[k]},
+                       .weight = {m * domain.gravity_x, m * domain.gravity_y}}};
+    std::vector<Loaded> family{self};
     const Eigen::Vector2d parent(p.x[k], p.y[k]);
     for (const Wall& wall : walls)
     {
@@ -58,17 +62,22 @@ std::vector<Image> make_images(const Domain& domain, std::span<const Wall> walls
       for (std::size_t member = 0; member < known; ++member)
         family.push_back(mirror(family[member], wall, parent, line));
     }
-    result.insert(result.end(), family.begin() + 1, family.end());
+    for (std::size_t member = 1; member < family.size(); ++member)
+    {
+      family[member].image.load = static_cast<int>(result.loads.size());
+      result.list.push_back(family[member].image);
+      result.loads.push_back(family[member].load);
+    }
   }
   return result;
 }
 
-void place_images(const Domain& domain, std::vector<Image>& images)
+void Images::sort(const Domain& domain)
 {
   const Grid& g = domain.grid;
   const auto cell = [&](double x, double origin)
   { return static_cast<int>(std::floor((x - origin) * g.inverse_spacing())); };
-  for (Image& image : images)
+  for (Image& image : list)
   {
     const int parent = domain.place[image.parent];
     const int i = cell(domain.particles.x[parent] + image.offset.x(), g.origin_x);
@@ -77,25 +86,21 @@ void place_images(const Domain& domain, std::vector<Image>& images)
   }
 }
 
-void ImageBlocks::bind(const Domain& domain, const std::vector<Image>& images)
+void Images::bind(const Domain& domain)
 {
-  std::vector<Place> places;
-  for (std::size_t k = 0; k < images.size(); ++k)
-    places.push_back({images[k].block, domain.place[images[k].parent], static_cast<int>(k)});
-  std::sort(places.begin(), places.end());
-  order_.clear();
+  for (Image& image : list) image.place = domain.place[image.parent];
+  const auto rank = [](const Image& image) { return std::tie(image.block, image.place, image.load); };
+  std::sort(list.begin(), list.end(), [&](const Image& a, const Image& b) { return rank(a) < rank(b); });
   homes_.clear();
-  colours_ = {};
-  for (const Place& place : places)
+  work_ = {};
+  for (int k = 0; k < static_cast<int>(list.size()); ++k)
   {
-    const int at = static_cast<int>(order_.size());
-    if (homes_.empty() || homes_.back().block != place.block)
-      homes_.push_back({place.block, domain.grid.around(place.block), at, at});
-    order_.push_back(place.image);
-    homes_.back().end = at + 1;
+    const BlockIndex block = list[k].block;
+    if (homes_.empty() || homes_.back().block != block)
+      homes_.push_back({block, domain.grid.around(block), k, k, false, {}});
+    homes_.back().end = k + 1;
   }
-  for (std::size_t k = 0; k < homes_.size(); ++k)
-    colours_[homes_[k].block.colour()].add(static_cast<int>(k), homes_[k].end - homes_[k].begin);
+  for (const ImageHome& home : homes_) work_.add(static_cast<int>(work_.items.size()), home.end - home.begin);
 }
 
 namespace
@@ -103,70 +108,73 @@ namespace
 /// Acceleration of the ghosts' mass by row of a block's tile, m/s2.
 using RowAccelerations = std::array<std::array<double, 2>, tile_nodes>;
 
-RowAccelerations accelerations(BlockIndex block, const ImageBlocks::Extra& extra)
+RowAccelerations accelerations(BlockIndex block, const Images::Rows& rows)
 {
   RowAccelerations result{};
-  const int first = block.y * block_cells - tile_margin - extra.first_row;
+  const int first = block.y * block_cells - tile_margin - rows.first_row;
   for (int row = 0; row < tile_nodes; ++row)
-    if (first + row >= 0 && first + row < static_cast<int>(extra.acceleration.size()))
-      result[row] = extra.acceleration[first + row];
+    if (first + row >= 0 && first + row < static_cast<int>(rows.acceleration.size()))
+      result[row] = rows.acceleration[first + row];
   return result;
 }
 
-/// What the images of a chunk bring to the nodes: stress column by column and weight, as vectors (x, y).
+/// Where the images of a chunk stand, and their loads less the factors of the stencils.
 struct ImageSources
 {
-  double x[chunk_size], y[chunk_size], mass[chunk_size];
-  double stress_x[chunk_size][2], stress_y[chunk_size][2], weight[chunk_size][2];
+  double x[chunk_size], y[chunk_size];
+  ImageLoad load[chunk_size];
 
-  void take(int k, const Domain& domain, const Image& image, const Eigen::Matrix2d* extra)
+  void take(const Images& images, const Domain& domain, int begin, int count)
   {
-    const int parent = domain.place[image.parent];
-    x[k] = domain.particles.x[parent] + image.offset.x();
-    y[k] = domain.particles.y[parent] + image.offset.y();
-    mass[k] = inverse_weights * image.mass;
-    Eigen::Matrix2d stress = image.stress;
-    if (extra) stress += *extra;
-    const double factor = -inverse_slopes * domain.grid.inverse_spacing();
-    for (int c = 0; c < 2; ++c)
+    const double stress = -inverse_slopes * domain.grid.inverse_spacing(), weight = inverse_weights;
+    const double factors[8] = {stress, stress, stress, stress, weight, weight, weight, 0};
+    static_assert(sizeof(ImageLoad) == sizeof factors);
+    const Pairs all = load_pairs(factors);
+    for (int k = 0; k < count; ++k)
     {
-      stress_x[k][c] = factor * stress(c, 0);
-      stress_y[k][c] = factor * stress(c, 1);
-      weight[k][c] = inverse_weights * image.weight[c];
+      const Image& image = images.list[begin + k];
+      x[k] = domain.particles.x[image.place] + image.offset.x();
+      y[k] = domain.particles.y[image.place] + image.offset.y();
+      store_pairs(load[k].stress_x, all * load_pairs(images.loads[image.load].stress_x));
     }
   }
 };
 
 /// Sums at the 16 nodes of one cell's stencil, kept while one image after the other stands in that cell.
+template <bool inertia>
 class ImageSums
 {
 public:
   explicit ImageSums(int node) : node_(node) {}
 
-  void add(int k, const ChunkStencils& s, const ImageSources& from)
+  void add(int k, const ChunkStencils& s, const ImageLoad& load)
   {
     const Spline<Row> x = cubic_spline(s.x_fraction[k]);
-    const Pairs w = twice(x.weight), f_slope = w * everywhere(from.stress_y[k]);
-    const Pairs f_w = twice(x.slope) * everywhere(from.stress_x[k]) + w * everywhere(from.weight[k]);
-    const Row m = from.mass[k] * x.weight;
+    const Pairs w = twice(x.weight), f_slope = w * everywhere(load.stress_y);
+    const Pairs f_w = twice(x.slope) * everywhere(load.stress_x) + w * everywhere(load.weight);
+    const Row m = load.mass * x.weight;
 #pragma GCC unroll 4
     for (int j = 0; j < 4; ++j)
     {
       force_[j] += s.y_weight[j][k] * f_w;
       force_[j] += s.y_slope[j][k] * f_slope;
-      mass_[j] += s.y_weight[j][k] * m;
+      if constexpr (inertia) mass_[j] += s.y_weight[j][k] * m;
     }
   }
 
   /// Adds the sums, less the inertia of the images' mass, to a tile.
   void flush(const RowAccelerations& a, PairTile& force) const
   {
+#pragma GCC unroll 4
     for (int j = 0; j < 4; ++j)
     {
       const int node = node_ + j * tile_stride;
-      const Pairs inertia = twice(mass_[j]) * everywhere(a[node / tile_stride].data());
       double* at = &force.value[2 * node];
-      store_pairs(at, load_pairs(at) + (force_[j] - inertia));
+      if constexpr (inertia)
+        store_pairs(at, load_pairs(at) +
+                            (force_[j] - twice(mass_[j]) * everywhere(a[node / tile_stride].data())));
+      else
+        store_pairs(at, load_pairs(at) + force_[j]);
     }
   }
 
@@ -177,34 +185,30 @@ private:
 };
 } // namespace
 
-void ImageBlocks::scatter(const Domain& domain, ImageHome& home, const std::vector<Image>& images,
-                          const Extra& extra) const
+template <bool inertia>
+void Images::scatter(const Domain& domain, ImageHome& home, const Rows& rows) const
 {
   home.force.value.fill(0);
-  const RowAccelerations a = accelerations(home.block, extra);
+  const RowAccelerations a = inertia ? accelerations(home.block, rows) : RowAccelerations{};
   const TileStencils tile(domain.grid, home.block);
   ChunkStencils stencils;
   ImageSources from;
   for (int begin = home.begin; begin < home.end; begin += chunk_size)
   {
     const int count = std::min(chunk_size, home.end - begin);
-    for (int k = 0; k < count; ++k)
-    {
-      const int image = order_[begin + k];
-      from.take(k, domain, images[image], extra.stress.empty() ? nullptr : &extra.stress[image]);
-    }
+    from.take(*this, domain, begin, count);
     stencils.find(tile, from.x, from.y, count);
     for (int k = 0; k < count;)
     {
       const int node = stencils.node[k];
-      ImageSums sums(node);
-      for (; k < count && stencils.node[k] == node; ++k) sums.add(k, stencils, from);
+      ImageSums<inertia> sums(node);
+      for (; k < count && stencils.node[k] == node; ++k) sums.add(k, stencils, from.load[k]);
       sums.flush(a, home.force);
     }
   }
 }
 
-std::array<double, 2> ImageBlocks::gather(Grid& g, const ImageHome& home) const
+std::array<double, 2> Images::gather(Grid& g, const ImageHome& home)
 {
   std::array<double, 2> sum{};
   for_each_run(g, home.around,
@@ -223,58 +227,59 @@ std::array<double, 2> ImageBlocks::gather(Grid& g, const ImageHome& home) const
   return sum;
 }
 
-std::array<double, 2> ImageBlocks::add_forces(Domain& domain, const std::vector<Image>& images,
-                                              const Extra& extra)
+std::array<double, 2> Images::add_forces(Domain& domain, const Rows& rows)
 {
-  std::vector<std::array<double, 2>> parts(homes_.size());
-  parallel::for_each_in_turn(colours_,
-                             [&](int k)
-                             {
-                               scatter(domain, homes_[k], images, extra);
-                               parts[k] = gather(domain.grid, homes_[k]);
-                             });
+  const bool rests = domain.rests();
+  for (ImageHome& home : homes_) home.hidden = rests && !domain.awake_around(home.around);
+  parallel::for_each(work_,
+                     [&](int k)
+                     {
+                       ImageHome& home = homes_[k];
+                       if (home.hidden) return;
+                       rows.acceleration.empty() ? scatter<false>(domain, home, rows)
+                                                 : scatter<true>(domain, home, rows);
+                     });
   std::array<double, 2> sum{};
-  for (const auto& part : parts)
+  for (const ImageHome& home : homes_)
   {
-    sum[0] += part[0];
-    sum[1] += part[1];
+    if (home.hidden) continue;
+    const auto [x, y] = gather(domain.grid, home);
+    sum[0] += x;
+    sum[1] += y;
   }
   return sum;
 }
 
-double ImageBlocks::work(const Domain& domain, double dt) const
+double Images::work(const Domain& domain, double dt) const
 {
   const Grid& g = domain.grid;
-  std::vector<double> parts(homes_.size());
-  parallel::for_each(static_cast<int>(homes_.size()), block_cost,
-                     [&](int at)
-                     {
-                       const ImageHome& home = homes_[at];
-                       double power = 0;
-                       for_each_run(g, home.around,
-                                    [&](int node, int place, int count)
-                                    {
-                                      for (int k = 0; k < count; ++k)
-                                      {
-                                        const auto [vx, vy] = g.middle_velocity(node + k);
-                                        const double* force = &home.force.value[2 * (place + k)];
-                                        power += force[0] * vx + force[1] * vy;
-                                      }
-                                    });
-                       parts[at] = dt * power;
-                     });
-  return std::accumulate(parts.begin(), parts.end(), 0.0);
+  double power = 0;
+  for (const ImageHome& home : homes_)
+  {
+    if (home.hidden) continue;
+    for_each_run(g, home.around,
+                 [&](int node, int place, int count)
+                 {
+                   for (int k = 0; k < count; ++k)
+                   {
+                     const auto [vx, vy] = g.middle_velocity(node + k);
+                     const double* force = &home.force.value[2 * (place + k)];
+                     power += force[0] * vx + force[1] * vy;
+                   }
+                 });
+  }
+  return dt * power;
 }
 
 void FrozenImages::bind(const Domain& domain)
 {
-  blocks_.bind(domain, images_);
+  images_.bind(domain);
   mass_ = std::accumulate(domain.particles.mass.begin(), domain.particles.mass.end(), 0.0);
 }
 
 void FrozenImages::add_forces(Domain& domain, double)
 {
-  const std::array<double, 2> now = blocks_.add_forces(domain, images_, {});
+  const std::array<double, 2> now = images_.add_forces(domain, {});
   if (resultant_.empty()) resultant_.push_back(now);
   // Sleeping ground hides its images: the correction stays what it was, as the ground does.
   if (!domain.rests())
@@ -295,12 +300,13 @@ void FrozenImages::add_forces(Domain& domain, double)
 void FrozenImages::measure_work(const Domain& domain, double dt, Energies& now) const
 {
   const auto [px, py] = domain.ledger.step.momentum;
-  now[Energy::reaction] += blocks_.work(domain, dt) + dt * (correction_[0][0] * px + correction_[0][1] * py);
+  now[Energy::reaction] += images_.work(domain, dt) + dt * (correction_[0][0] * px + correction_[0][1] * py);
 }
 
 void FrozenImages::visit_state(StateVisitor& visitor)
 {
-  visit_images(visitor, "image_", images_);
+  images_.visit_list(visitor, "image_");
+  images_.visit_loads(visitor, "image_load_");
   RecordVisitor<std::array<double, 2>> sum(visitor, "image_resultant_", resultant_);
   sum.each("x", "N/m", [](auto& force) -> double& { return force[0]; });
   sum.each("y", "N/m", [](auto& force) -> double& { return force[1]; });
@@ -309,23 +315,29 @@ void FrozenImages::visit_state(StateVisitor& visitor)
   correction.each("y", "m/s2", [](auto& acceleration) -> double& { return acceleration[1]; });
 }
 
-void visit_images(StateVisitor& visitor, std::string prefix, std::vector<Image>& images)
+void Images::visit_list(StateVisitor& visitor, const std::string& prefix)
 {
-  RecordVisitor<Image> list(visitor, std::move(prefix), images);
-  list.each_integer(
+  RecordVisitor<Image> each(visitor, prefix, list);
+  each.each_integer(
       "parent", [](Image & image) -> auto& { return image.parent; });
-  list.each_integer(
+  each.each_integer(
+      "load", [](Image & image) -> auto& { return image.load; });
+  each.each_integer(
       "block_x", [](Image & image) -> auto& { return image.block.x; });
-  list.each_integer(
+  each.each_integer(
       "block_y", [](Image & image) -> auto& { return image.block.y; });
-  list.each("offset_x", "m", [](Image& image) -> double& { return image.offset.x(); });
-  list.each("offset_y", "m", [](Image& image) -> double& { return image.offset.y(); });
-  list.each("stress_xx", "N m/m", [](Image& image) -> double& { return image.stress(0, 0); });
-  list.each("stress_xy", "N m/m", [](Image& image) -> double& { return image.stress(0, 1); });
-  list.each("stress_yx", "N m/m", [](Image& image) -> double& { return image.stress(1, 0); });
-  list.each("stress_yy", "N m/m", [](Image& image) -> double& { return image.stress(1, 1); });
-  list.each("weight_x", "N/m", [](Image& image) -> double& { return image.weight.x(); });
-  list.each("weight_y", "N/m", [](Image& image) -> double& { return image.weight.y(); });
-  list.member("mass", "kg/m", &Image::mass);
+  each.each("offset_x", "m", [](Image& image) -> double& { return image.offset.x(); });
+  each.each("offset_y", "m", [](Image& image) -> double& { return image.offset.y(); });
+}
+
+void Images::visit_loads(StateVisitor& visitor, const std::string& prefix)
+{
+  RecordVisitor<ImageLoad> each(visitor, prefix, loads);
+  each.each("stress_xx", "N m/m", [](ImageLoad& load) -> double& { return load.stress_x[0]; });
+  each.each("stress_xy", "N m/m", [](ImageLoad& load) -> double& { return load.stress_y[0]; });
+  each.each("stress_yx", "N m/m", [](ImageLoad& load) -> double& { return load.stress_x[1]; });
+  each.each("stress_yy", "N m/m", [](ImageLoad& load) -> double& { return load.stress_y[1]; });
+  each.each("weight_x", "N/m", [](ImageLoad& load) -> double& { return load.weight[0]; });
+  each.each("weight_y", "N/m", [](ImageLoad& load) -> double& { return load.weight[1]; });
 }
 } // namespace mpm

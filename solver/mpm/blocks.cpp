@@ -10,7 +10,7 @@ namespace mpm
 {
 namespace
 {
-/// Sort key of a particle: block (row by row), then cell in it.
+/// Sort key of a particle: block, then cell in it (row by row).
 struct Key
 {
   BlockIndex block;

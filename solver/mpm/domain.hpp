@@ -87,6 +87,12 @@ struct Domain
   Rest rest;
   /// Whether some ground sleeps.
   bool rests() const { return awake.items.size() < homes.size(); }
+  /// Whether ground in one of these blocks is awake.
+  bool awake_around(const Neighbours& around) const
+  {
+    return std::any_of(around.begin(), around.end(), [this](int block)
+                       { return block >= 0 && home_in[block] >= 0 && !homes[home_in[block]].asleep; });
+  }
   std::vector<int> place; ///< where a particle id stands now
   double drift = 0;       ///< cells that a particle may have moved since the last sort
   Balance balance;

@@ -29,6 +29,7 @@ Neighbours Grid::around(BlockIndex block) const
 
 void Grid::build(std::vector<BlockIndex> wanted, bool with_dashpots, bool with_face_dashpots)
 {
+  ++built;
   blocks = std::move(wanted);
   neighbours.clear();
   for (const BlockIndex& block : blocks) neighbours.push_back(around(block));

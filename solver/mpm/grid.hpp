@@ -19,15 +19,15 @@ inline constexpr int tile_size = tile_nodes * tile_stride;
 
 inline constexpr int block_cost = 4; ///< time that a loop over a block's nodes takes, in particles
 
-/// Place of a block: its cells are [8 x, 8 x + 8) by [8 y, 8 y + 8).
+/// Place of a block, column by column: its cells are [8 x, 8 x + 8) by [8 y, 8 y + 8).
 struct BlockIndex
 {
   int x, y;
   bool operator==(const BlockIndex&) const = default;
   std::strong_ordering operator<=>(const BlockIndex& other) const
   {
-    if (const auto order = y <=> other.y; order != 0) return order;
-    return x <=> other.x;
+    if (const auto order = x <=> other.x; order != 0) return order;
+    return y <=> other.y;
   }
   int colour() const { return (x & 1) + 2 * (y & 1); }
 };
@@ -45,6 +45,7 @@ struct Grid
 
   std::vector<BlockIndex> blocks; ///< sorted
   std::vector<Neighbours> neighbours;
+  int built = 0; ///< how often: places in the node fields hold until the next time
 
   std::vector<double> mass;
   std::vector<double> momentum_x, momentum_y;

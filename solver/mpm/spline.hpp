@@ -51,7 +51,7 @@ inline Stencil cubic_stencil(double x, double spacing)
 {
   const double local = x / spacing, cell = std::floor(local), f = local - cell;
   const Spline<Row> s = cubic_spline(f);
-  return {static_cast<int>(cell) - 1, s.weight / spline_weight, s.slope / (spline_slope * spacing),
+  return {static_cast<int>(cell) - 1, (1 / spline_weight) * s.weight, (1 / (spline_slope * spacing)) * s.slope,
           spacing * (Row{-1, 0, 1, 2} - f)};
 }
 } // namespace mpm

@@ -90,7 +90,7 @@ CompliantBase* switch_boundaries(Domain& domain, const Case& scene, std::span<co
                                  const std::shared_ptr<const IncomingWave>& wave, BaseSpring spring,
                                  bool restarting)
 {
-  std::vector<Image> images;
+  Images images;
   if (!restarting) images = make_images(domain, leaving);
   domain.boundaries.clear();
   domain.boundaries.push_back(std::make_unique<FrozenImages>(std::move(images)));

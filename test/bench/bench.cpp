@@ -16,6 +16,7 @@
 #include <fstream>
 #include <iostream>
 #include <malloc.h>
+#include <numeric>
 #include <unistd.h>
 
 namespace
@@ -34,10 +35,10 @@ double median(std::vector<double> values)
   return values[values.size() / 2];
 }
 
-/// Giga multiply-adds per second of one thread, in registers.
+/// Giga multiply-adds per second of one thread, in registers; takes some milliseconds.
 double multiply_adds()
 {
-  constexpr int lanes = 64, rounds = 4000000;
+  constexpr int lanes = 64, rounds = 2000000;
   alignas(64) double sum[lanes]{};
   const volatile double factor = 0.999999;
   const double f = factor;
@@ -48,6 +49,21 @@ double multiply_adds()
   volatile double keep = 0;
   for (const double s : sum) keep = keep + s;
   return 1e-9 * lanes * rounds / time;
+}
+
+/// The same of each thread while all of them do it: processors of a shared host change their speed, and two of
+/// them may share a core.
+double multiply_adds_of_each()
+{
+  std::vector<double> rates(parallel::threads());
+  parallel::for_each(parallel::threads(), 1000, [&](int k) { rates[k] = multiply_adds(); });
+  return std::accumulate(rates.begin(), rates.end(), 0.0) / parallel::threads();
+}
+
+/// What a particle-step's arithmetic takes at least, ns: 805 operations, two to a multiply-add.
+double arithmetic_floor(double giga_multiply_adds)
+{
+  return 805 / (2 * giga_multiply_adds);
 }
 
 /// GB/s that one thread reads and writes in place, in an array of `bytes`.
@@ -112,7 +128,8 @@ double resident()
 struct Run
 {
   int particles, threads;
-  double step;  ///< ns per particle-step and core, median over batches of steps
+  double step;   ///< ns per particle-step and core, median over batches of steps
+  double floors; ///< median of the batches' ratios to the arithmetic floor of that moment and all threads
   double bytes; ///< of memory per particle, all that the scene takes
   std::array<double, phase_names.size()> phases;
 };
@@ -137,14 +154,16 @@ Run measure(int particles, int threads)
   const double bytes = (resident() - before_scene) / count;
   const double unit = 1e9 * threads / (static_cast<double>(count) * batch);
   const auto before = model.main->times.seconds();
-  std::vector<double> batches;
+  std::vector<double> batches, floors;
   for (int round = 0; round < 5; ++round)
   {
+    const double rate = multiply_adds_of_each();
     const auto start = Watch::now();
     go(batch);
     batches.push_back(unit * seconds_since(start));
+    floors.push_back(batches.back() / arithmetic_floor(0.5 * (rate + multiply_adds_of_each())));
   }
-  Run run{count, threads, median(batches), bytes, {}};
+  Run run{count, threads, median(batches), median(floors), bytes, {}};
   for (std::size_t k = 0; k < run.phases.size(); ++k)
     run.phases[k] = unit * (model.main->times.seconds()[k] - before[k]) / 5;
   return run;
@@ -184,9 +203,10 @@ int main(int argc, char** argv)
   fmt::print("vectors: {}; one thread: {:.1f} giga multiply-adds/s, in place {:.1f} GB/s in 100 MB, {:.1f} "
              "in 800 MB\n",
              vector_path, fma, near, far);
-  // 805 operations and 328 + 23 bytes a particle-step with 9 particles a cell, two to a multiply-add.
-  const double arithmetic = 805 / (2 * fma), memory = 351 / near;
+  const double arithmetic = arithmetic_floor(fma);
+  const double memory = 351 / near; // 328 + 23 bytes a particle-step with 9 particles a cell
   fmt::print("floors: arithmetic {:.1f}, memory {:.1f} ns per particle-step\n\n", arithmetic, memory);
+  measure(1000, threads.front()); // what the program takes for itself is no scene's
   fmt::print("{:>10} {:>8} {:>8}", "particles", "threads", "step");
   for (const auto name : phase_names) fmt::print(" {:>10}", name);
   fmt::print("  floor x  bytes\n");
@@ -197,11 +217,12 @@ int main(int argc, char** argv)
       const Run run = measure(size, count);
       fmt::print("{:>10} {:>8} {:>8.1f}", run.particles, run.threads, run.step);
       for (const double phase : run.phases) fmt::print(" {:>10.2f}", phase);
-      fmt::print("  {:>7.1f} {:>6.0f}\n", run.step / std::max(arithmetic, memory), run.bytes);
+      fmt::print("  {:>7.1f} {:>6.0f}\n", run.floors, run.bytes);
       std::cout.flush();
       nlohmann::json one{{"particles", run.particles},
                          {"threads", run.threads},
                          {"step", run.step},
+                         {"arithmetic_floors", run.floors},
                          {"bytes_per_particle", run.bytes}};
       for (std::size_t k = 0; k < phase_names.size(); ++k) one[std::string(phase_names[k])] = run.phases[k];
       runs.push_back(one);

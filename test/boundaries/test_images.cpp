@@ -74,10 +74,10 @@ TEST_CASE("Only particles within four cells of a wall have images, corners three
 {
   const Domain domain = random_block();
   const std::vector<Wall> all = walls(false, true);
-  const std::vector<Image> images = make_images(domain, all);
+  const Images images = make_images(domain, all);
   const Particles& p = domain.particles;
   std::vector<int> count(p.size(), 0);
-  for (const Image& image : images) ++count[image.parent];
+  for (const Image& image : images.list) ++count[image.parent];
   for (int id = 0; id < p.size(); ++id)
   {
     const int k = domain.place[id];
@@ -100,22 +100,24 @@ TEST_CASE("An image stands opposite its parent and carries the mirrored stress a
   p.stress_xy[0] = 7;
   const double V = p.volume[0], m = p.mass[0];
   const std::vector<Wall> sticks{{Direction::y, 5, 1, false}}, slips{{Direction::y, 5, 1, true}};
-  const Image stuck = make_images(domain, sticks).at(0), slid = make_images(domain, slips).at(0);
-  CHECK(p.y[0] + stuck.offset.y() == Approx(2.75).epsilon(1e-14));
-  CHECK(stuck.offset.x() == 0);
+  const Images sticking = make_images(domain, sticks), slipping = make_images(domain, slips);
+  const Image& image = sticking.list.at(0);
+  const ImageLoad &stuck = sticking.loads.at(0), &slid = slipping.loads.at(0);
+  CHECK(p.y[0] + image.offset.y() == Approx(2.75).epsilon(1e-14));
+  CHECK(image.offset.x() == 0);
   // S = -1, M = diag(1, -1): [-xx, xy; -xy, yy] (METHODS section 13)
-  CHECK(stuck.stress(0, 0) == -3 * V);
-  CHECK(stuck.stress(0, 1) == 7 * V);
-  CHECK(stuck.stress(1, 0) == -7 * V);
-  CHECK(stuck.stress(1, 1) == 5 * V);
-  CHECK(stuck.weight.x() == -2 * m);
-  CHECK(stuck.weight.y() == 9 * m);
-  CHECK(slid.stress(0, 0) == 3 * V);
-  CHECK(slid.stress(0, 1) == -7 * V);
-  CHECK(slid.stress(1, 0) == -7 * V);
-  CHECK(slid.stress(1, 1) == 5 * V);
-  CHECK(slid.weight.x() == 2 * m);
-  CHECK(slid.weight.y() == 9 * m);
+  CHECK(stuck.stress_x[0] == -3 * V);
+  CHECK(stuck.stress_y[0] == 7 * V);
+  CHECK(stuck.stress_x[1] == -7 * V);
+  CHECK(stuck.stress_y[1] == 5 * V);
+  CHECK(stuck.weight[0] == -2 * m);
+  CHECK(stuck.weight[1] == 9 * m);
+  CHECK(slid.stress_x[0] == 3 * V);
+  CHECK(slid.stress_y[0] == -7 * V);
+  CHECK(slid.stress_x[1] == -7 * V);
+  CHECK(slid.stress_y[1] == 5 * V);
+  CHECK(slid.weight[0] == 2 * m);
+  CHECK(slid.weight[1] == 9 * m);
 }
 
 TEST_CASE("Images move with the body: their resultant stays when the body is shifted by part of a cell",
