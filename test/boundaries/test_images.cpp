@@ -149,3 +149,32 @@ TEST_CASE("Images move with the body: their resultant stays when the body is shi
   CHECK(std::fabs(second[0] - first[0]) / scale < 1e-12);
   CHECK(std::fabs(second[1] - first[1]) / scale < 1e-12);
 }
+
+TEST_CASE("Images that sleeping ground hides leave the forces on waking ground as they are, bit by bit",
+          "[boundaries]")
+{
+  const Threads one(1);
+  Domain awake = make_domain({{elastic(), {0, 0, 96, 16}}});
+  random_stress(awake, 1e5, 83);
+  Domain half = same_particles(awake);
+  const std::vector<Wall> base{{Direction::y, 0, 1, false}};
+  for (Domain* domain : {&awake, &half})
+    domain->boundaries.push_back(std::make_unique<FrozenImages>(make_images(*domain, base)));
+  sort_particles(awake);
+  sort_particles(half);
+  for (Home& home : half.homes) home.asleep = home.block.x < 6;
+  bind_rest(half);
+  particles_to_grid(awake, 1e-3);
+  particles_to_grid(half, 1e-3);
+  std::vector<bool> held(half.grid.nodes(), false);
+  for (const int node : half.rest.held) held[node] = true;
+  int compared = 0;
+  for (int node = 0; node < half.grid.nodes(); ++node)
+  {
+    if (half.grid.mass[node] <= 0 || held[node]) continue;
+    ++compared;
+    CHECK(half.grid.force_x[node] == awake.grid.force_x[node]);
+    CHECK(half.grid.force_y[node] == awake.grid.force_y[node]);
+  }
+  CHECK(compared > 40 * 16); // from x = 52 m on
+}
