@@ -91,7 +91,8 @@ void FaceNodes::find(const Domain& domain, const std::vector<Face>& faces,
     const auto end = far_end.empty() ? std::array<double, 2>{} : far_end[k];
     add(cells_.back().at, x.weight, y.weight, brought(faces[k], end));
   }
-  const auto same = [](const Cell& cell, const Slots& slots) { return cell.i == slots.i && cell.j == slots.j; };
+  const auto same = [](const Cell& cell, const Slots& slots)
+  { return cell.i == slots.i && cell.j == slots.j; };
   if (grid_ != g.built || !std::equal(cells_.begin(), cells_.end(), slots_.begin(), slots_.end(), same))
     lay_out(g);
   for (FaceNode& node : nodes_) store_row(&node.dashpot_x, Row{});

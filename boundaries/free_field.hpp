@@ -76,9 +76,9 @@ private:
   const FreeFieldColumn* column_;
   std::shared_ptr<const IncomingWave> wave_;
   std::vector<Face> faces_;
-  std::vector<Face> ghost_base_;  ///< base dashpots below the ghost rows
-  FaceNodes nodes_, ghost_nodes_; ///< of both, in the last step
-  Images ghosts_;                 ///< their loads are those of the column's rows
+  std::vector<Face> ghost_base_;               ///< base dashpots below the ghost rows
+  FaceNodes nodes_, ghost_nodes_;              ///< of both, in the last step
+  Images ghosts_;                              ///< their loads are those of the column's rows
   std::vector<Eigen::Matrix2d> static_stress_; ///< of the column's rows at the switch
 };
 } // namespace mpm

@@ -149,7 +149,7 @@ public:
 
   void add(int k, const ChunkStencils& s, const ImageLoad& load)
   {
-    const Spline<Row> x = cubic_spline(s.x_fraction[k]);
+    const Spline<Row> x = s.row(k);
     const Pairs w = twice(x.weight), f_slope = w * everywhere(load.stress_y);
     const Pairs f_w = twice(x.slope) * everywhere(load.stress_x) + w * everywhere(load.weight);
     const Row m = load.mass * x.weight;
@@ -198,6 +198,7 @@ void Images::scatter(const Domain& domain, ImageHome& home, const Rows& rows) co
     const int count = std::min(chunk_size, home.end - begin);
     from.take(*this, domain, begin, count);
     stencils.find(tile, from.x, from.y, count);
+    stencils.find_rows(count);
     for (int k = 0; k < count;)
     {
       const int node = stencils.node[k];

@@ -36,4 +36,18 @@ void ChunkStencils::find(const TileStencils& tile, const double* __restrict x, c
       y_moment[j][k] = s.moment;
     }
 }
+
+void ChunkStencils::find_rows(int count)
+{
+  if constexpr (!two_rows_a_register) return;
+  static_assert(chunk_size % 2 == 0);
+  if (count % 2 == 1) x_fraction[count] = 0; // the second of the last two, which is not there
+  for (int k = 0; k < count; k += 2)
+  {
+    const Spline<Pairs> s = cubic_spline(x_fraction[k], x_fraction[k + 1]);
+    store_pairs(x_weight[k], s.weight);
+    store_pairs(x_slope[k], s.slope);
+    store_pairs(x_moment[k], s.moment);
+  }
+}
 } // namespace mpm

@@ -47,7 +47,7 @@ public:
 
   void add(const ChunkStencils& s, const Sources& from, int k)
   {
-    const Spline<Row> x = cubic_spline(s.x_fraction[k]);
+    const Spline<Row> x = s.row(k);
     const Pairs w = twice(x.weight), slope = twice(x.slope), moment = twice(x.moment);
     const Row m = from.mass[k] * x.weight;
     const Pairs p_w = w * everywhere(from.momentum[k]) + moment * everywhere(from.spread_x[k]);
@@ -117,6 +117,7 @@ void scatter_range(Domain& domain, const Home& home, const Range& range)
                    const double* none = &p.x[begin];
                    const Ahead ahead(p, begin, none, none, none);
                    stencils.find(tile, &p.x[begin], &p.y[begin], count);
+                   stencils.find_rows(count);
                    sources.gather(p, begin, count, mass_scale, domain.grid.spacing);
                    scatter(stencils, sources, count, tiles, ahead);
                  });

@@ -39,6 +39,14 @@ inline constexpr std::string_view vector_path =
     "scalar";
 #endif
 
+/// Whether a register holds the rows around two points.
+inline constexpr bool two_rows_a_register =
+#ifdef __AVX512F__
+    true;
+#else
+    false;
+#endif
+
 #ifdef __AVX512F__
 
 /// A vector (x, y) at each of four neighbouring nodes of a row.
@@ -60,6 +68,16 @@ inline Pairs twice(const Row& row)
   return reinterpret_cast<Pairs>(
       _mm512_maskz_permutexvar_pd(0xFF, _mm512_set_epi64(3, 3, 2, 2, 1, 1, 0, 0),
                                   _mm512_castpd256_pd512(reinterpret_cast<__m256d>(row))));
+}
+/// A row of nodes around each of two points: the same four numbers for both, or one number for each.
+inline Pairs both(const double* row)
+{
+  return Pairs{row[0], row[1], row[2], row[3], row[0], row[1], row[2], row[3]};
+}
+inline Pairs both(double first, double second)
+{
+  return reinterpret_cast<Pairs>(_mm512_maskz_permutexvar_pd(
+      0xFF, _mm512_set_epi64(1, 1, 1, 1, 0, 0, 0, 0), _mm512_castpd128_pd512(_mm_set_pd(second, first))));
 }
 /// One vector (x, y) at all nodes.
 inline Pairs everywhere(const double* vector)
@@ -133,6 +151,14 @@ inline void store_pairs(double* to, const Pairs& pairs)
 inline Pairs twice(const Row& row)
 {
   return {__builtin_shufflevector(row, row, 0, 0, 1, 1), __builtin_shufflevector(row, row, 2, 2, 3, 3)};
+}
+inline Pairs both(const double* row)
+{
+  return {load_row(row), load_row(row)};
+}
+inline Pairs both(double first, double second)
+{
+  return {first + Row{}, second + Row{}};
 }
 inline Pairs everywhere(const double* vector)
 {

@@ -38,6 +38,12 @@ template <class Value, class Pick>
   return cubic_spline(f + Row{}, [](const double* all) { return load_row(all); });
 }
 
+/// Of all four nodes around each of two points.
+[[gnu::always_inline]] inline Spline<Pairs> cubic_spline(double f, double g)
+{
+  return cubic_spline(both(f, g), [](const double* all) { return both(all); });
+}
+
 /// Stencil of a point in one direction: nodes first .. first + 3, weights N, derivatives dN/dx in 1/m and
 /// offsets x_i - x in m.
 struct Stencil
@@ -51,7 +57,7 @@ inline Stencil cubic_stencil(double x, double spacing)
 {
   const double local = x / spacing, cell = std::floor(local), f = local - cell;
   const Spline<Row> s = cubic_spline(f);
-  return {static_cast<int>(cell) - 1, (1 / spline_weight) * s.weight, (1 / (spline_slope * spacing)) * s.slope,
-          spacing * (Row{-1, 0, 1, 2} - f)};
+  return {static_cast<int>(cell) - 1, (1 / spline_weight) * s.weight,
+          (1 / (spline_slope * spacing)) * s.slope, spacing * (Row{-1, 0, 1, 2} - f)};
 }
 } // namespace mpm

@@ -52,8 +52,8 @@ double multiply_adds()
   return 1e-9 * lanes * rounds / time;
 }
 
-/// The same of each thread while all of them do it: processors of a shared host change their speed, and two of
-/// them may share a core.
+/// The same of each thread while all of them do it: processors of a shared host change their speed, and two
+/// of them may share a core.
 double multiply_adds_of_each()
 {
   std::vector<double> rates(parallel::threads());
@@ -131,7 +131,7 @@ struct Run
   int particles, threads;
   double step;   ///< ns per particle-step and core, median over batches of steps
   double floors; ///< median of the batches' ratios to the arithmetic floor of that moment and all threads
-  double bytes; ///< of memory per particle, all that the scene takes
+  double bytes;  ///< of memory per particle, all that the scene takes
   std::array<double, phase_names.size()> phases;
 };
 
