@@ -88,9 +88,8 @@ inline Pairs everywhere(const double* vector)
 /// The greater of what is there and the magnitude of a new value, number by number; skips what is no number.
 inline Pairs greatest_of(const Pairs& so_far, const Pairs& value)
 {
-  const auto greater = [](const Pairs& a, const Pairs& b)
-  { return reinterpret_cast<Pairs>(_mm512_maskz_max_pd(0xFF, a, b)); };
-  return greater(-value, greater(value, so_far));
+  constexpr int greatest_magnitude = 0b1011;
+  return reinterpret_cast<Pairs>(_mm512_maskz_range_pd(0xFF, so_far, value, greatest_magnitude));
 }
 /// The greatest of all numbers.
 inline double greatest_of(const Pairs& of)
