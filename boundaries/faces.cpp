@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace mpm
 {
@@ -54,11 +53,11 @@ void add(Row (&nodes)[16], const Row& x_weight, const Row& y_weight, const Row& 
 
 void FaceNodes::lay_out(const Grid& grid)
 {
-  grid_ = grid.built;
+  built_ = grid.built;
   slots_.clear();
   nodes_.clear();
   NodeFinder find(grid);
-  std::vector<int> slot(grid.nodes() + 1, -1); // the last one is that of no node
+  std::vector<int> slot(grid.nodes(), -1);
   for (const Cell& cell : cells_)
   {
     find.move_to(cell.i, cell.j);
@@ -93,7 +92,7 @@ void FaceNodes::find(const Domain& domain, const std::vector<Face>& faces,
   }
   const auto same = [](const Cell& cell, const Slots& slots)
   { return cell.i == slots.i && cell.j == slots.j; };
-  if (grid_ != g.built || !std::equal(cells_.begin(), cells_.end(), slots_.begin(), slots_.end(), same))
+  if (built_ != g.built || !std::equal(cells_.begin(), cells_.end(), slots_.begin(), slots_.end(), same))
     lay_out(g);
   for (FaceNode& node : nodes_) store_row(&node.dashpot_x, Row{});
   for (std::size_t c = 0; c < cells_.size(); ++c)

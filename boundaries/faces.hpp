@@ -28,7 +28,7 @@ enum class Edge
 /// distance h/n. Impedances rho c are those of each particle's own material (eqs. 4, 5).
 std::vector<Face> find_faces(const Domain& domain, Edge edge, double position, double size);
 
-/// What of the faces' dashpots acts at one grid node.
+/// What of the faces' dashpots acts at one grid node; the last four are summed as a vector.
 struct FaceNode
 {
   int node, column, row;       ///< place in the node fields, column and row of the grid
@@ -67,7 +67,7 @@ private:
   std::vector<FaceNode> nodes_;
   std::vector<Cell> cells_;  ///< of the last step
   std::vector<Slots> slots_; ///< of each cell
-  int grid_ = 0;             ///< Grid::built when they were found
+  int built_ = 0;            ///< Grid::built when they were found
 };
 
 /// Saves or loads faces, under names that begin with `prefix`.

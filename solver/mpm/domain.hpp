@@ -8,6 +8,7 @@
 #include "solver/mpm/phases.hpp"
 #include "solver/mpm/rest.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 #include <stdexcept>

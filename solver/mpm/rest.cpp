@@ -74,9 +74,7 @@ void bind_rest(Domain& domain)
   held.clear();
   for (const Home& home : domain.homes)
   {
-    bool edge = false;
-    for_each_around(domain, home, [&](const Home& other) { edge |= !other.asleep; });
-    if (!home.asleep || !edge) continue;
+    if (!home.asleep || !domain.awake_around(home.around)) continue;
     for_each_run(domain.grid, home.around,
                  [&](int node, int, int count)
                  {
