@@ -93,7 +93,7 @@ void CompliantBase::measure_work(const Domain& domain, double dt, Energies& now)
   for (const FaceNode& at : nodes_)
   {
     const auto [vx, vy] = g.middle_velocity(at.node);
-    const auto [ux, uy] = domain.consistent_inertia ? columns_.velocity(at.column) : std::array{vx, vy};
+    const auto [ux, uy] = domain.consistent_inertia ? face_velocity(at.column) : std::array{vx, vy};
     spring += at.drive_x * vx + at.drive_y * vy;
     incoming += at.dashpot_x * upx * upx + at.dashpot_y * upy * upy;
     radiated +=

@@ -64,6 +64,8 @@ public:
   void apply_dashpots(Domain& domain, double dt) override;
   void measure_work(const Domain& domain, double dt, Energies& now) const override;
   void visit_state(StateVisitor& visitor) override;
+  /// Velocity of the face at a column of nodes in the last step, m/s; with consistent inertia only.
+  const std::array<double, 2>& face_velocity(int column) const { return columns_.velocity(column); }
   /// Where the free field's base stands at the start of the step to come; without columns the free field goes
   /// where the input takes it.
   void follow(std::vector<FreeFieldBase> free_field) { free_field_ = std::move(free_field); }

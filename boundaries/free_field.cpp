@@ -37,8 +37,6 @@ void FreeFieldColumn::note_motion(double dt)
   const int count = (g.blocks.back().y + 1) * block_cells - first_row;
   velocity.assign(count, {});
   acceleration.assign(count, {});
-  base_velocity = {};
-  std::array<double, 2> dashpot{};
   for (int row = 0; row < count; ++row)
   {
     const int node = g.node(0, first_row + row);
@@ -47,16 +45,7 @@ void FreeFieldColumn::note_motion(double dt)
     velocity[row] = g.forced_velocity(node);
     const auto [ax, ay] = g.velocity_change(node);
     acceleration[row] = {ax / dt, ay / dt};
-    if (g.face_dashpot_x.empty()) continue; // a fixed base
-    const double c[2] = {g.face_dashpot_x[node], g.face_dashpot_y[node]};
-    for (int k = 0; k < 2; ++k)
-    {
-      dashpot[k] += c[k];
-      base_velocity[k] += c[k] * velocity[row][k];
-    }
   }
-  for (int k = 0; k < 2; ++k)
-    if (dashpot[k] > 0) base_velocity[k] /= dashpot[k];
 }
 
 int FreeFieldColumn::row_near(double y) const
@@ -125,7 +114,8 @@ std::array<double, 2> FreeFieldSide::column_velocity(int row) const
 
 std::array<double, 2> FreeFieldSide::base_velocity(int row) const
 {
-  return column_->domain->consistent_inertia ? column_->base_velocity : column_velocity(row);
+  if (!column_->domain->consistent_inertia) return column_velocity(row);
+  return column_->compliant_base ? column_->compliant_base->face_velocity(0) : std::array<double, 2>{};
 }
 
 void FreeFieldSide::add_forces(Domain& domain, double dt)

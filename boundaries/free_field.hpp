@@ -25,9 +25,9 @@ public:
   FreeFieldBase base() const;
 
   std::unique_ptr<Domain> domain;
-  std::vector<Eigen::Matrix2d> stress;         ///< of the rows, at the step's start
-  std::vector<std::array<double, 2>> velocity; ///< of the grid rows, mean of the step's start and end, m/s
-  std::array<double, 2> base_velocity{};       ///< of the base's face, likewise; with consistent inertia only
+  const CompliantBase* compliant_base = nullptr; ///< of the domain; null on a fixed base
+  std::vector<Eigen::Matrix2d> stress;           ///< of the rows, at the step's start
+  std::vector<std::array<double, 2>> velocity;   ///< of the grid rows, mean of the step's start and end, m/s
   std::vector<std::array<double, 2>> acceleration; ///< of the grid rows, m/s2
   int first_row = 0;                               ///< grid row of the first entry
 

@@ -166,7 +166,10 @@ void add_seismic_boundaries(Model& model, const Case& scene, std::shared_ptr<con
         const BaseSpring spring(column.empty() ? spring_time(scene) : 0);
         CompliantBase* const base =
             switch_boundaries(domain, scene, leaving, staying, wave, spring, restarting);
-        if (column.empty()) model.base = base;
+        if (column.empty())
+          model.base = base;
+        else
+          (column == "left" ? model.left : model.right)->compliant_base = base;
       });
   if (!roller)
     for (const Edge edge : {Edge::left, Edge::right})
