@@ -69,15 +69,15 @@ struct VonMises : Elastic, LinearSoftening
 private:
   void return_to_yield_surface(const StressBatch& s, double* __restrict strain) const
   {
-    const double stiffness = 3 * shear_modulus(), slope = (residual - peak) / softening_strain;
+    const double stiffness = 3 * shear_modulus(), top = peak, bottom = residual;
+    const double slope = (bottom - top) / softening_strain;
     const double softening_rate = 1 / (stiffness + slope), residual_rate = 1 / stiffness;
-    const auto strength = [=, this](double strain) { return std::max(residual, peak + slope * strain); };
-    const auto excess = [&](int k)
+    const auto excess = [=, &s](int k)
     {
-      const double allowed = strength(strain[k]);
+      const double allowed = std::max(bottom, top + slope * strain[k]);
       return 3 * Deviator(s, k).j2() - allowed * allowed;
     };
-    const auto settle = [&](int begin, int n, const double* __restrict over)
+    const auto settle = [=, &s](int begin, int n, const double* __restrict over)
     {
 #pragma GCC ivdep
       for (int i = 0; i < n; ++i)
@@ -87,8 +87,8 @@ private:
         const bool yields = over[i] > 0; // an elastic point stays as it is, to the last bit
         const double q = std::max(trial.mises(), std::numeric_limits<double>::min());
         // The two roots of the return equation, softening and residual; the smaller one is admissible.
-        const double soft = (q - (peak + slope * strain[k])) * softening_rate;
-        const double flat = (q - residual) * residual_rate;
+        const double soft = (q - (top + slope * strain[k])) * softening_rate;
+        const double flat = (q - bottom) * residual_rate;
         const double step = yields ? std::max(0.0, std::min(soft, flat)) : 0;
         const double scale = 1 - stiffness * step / q;
         strain[k] += step;

@@ -123,13 +123,19 @@ void apply(Particles& p, int begin, int count, const Readings& from, double spac
   double* __restrict vx = &p.velocity_x[begin], * __restrict vy = &p.velocity_y[begin];
   double* __restrict cxx = &p.affine_xx[begin], * __restrict cxy = &p.affine_xy[begin];
   double* __restrict cyx = &p.affine_yx[begin], * __restrict cyy = &p.affine_yy[begin];
+#pragma GCC ivdep
   for (int k = 0; k < count; ++k)
   {
     vx[k] = velocity[k][0];
     vy[k] = velocity[k][1];
+  }
+#pragma GCC ivdep
+  for (int k = 0; k < count; ++k)
+  {
     x[k] += dt * from.velocity[k][0];
     y[k] += dt * from.velocity[k][1];
   }
+#pragma GCC ivdep
   for (int k = 0; k < count; ++k)
   {
     cxx[k] = affine * from.moment_x[k][0];
@@ -137,6 +143,7 @@ void apply(Particles& p, int begin, int count, const Readings& from, double spac
     cxy[k] = affine * from.moment_y[k][0];
     cyy[k] = affine * from.moment_y[k][1];
   }
+#pragma GCC ivdep
   for (int k = 0; k < count; ++k)
   {
     L.xx[k] = slope * from.slope_x[k][0];

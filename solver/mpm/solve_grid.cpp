@@ -24,16 +24,23 @@ inline double accelerate(const Parameters& a, double m, double momentum, double 
 template <bool dashpots>
 void solve_block(Grid& g, int block, const Parameters& a)
 {
-  for (int k = block * block_nodes; k < (block + 1) * block_nodes; ++k)
+  const int from = block * block_nodes;
+  const auto solve = [&, a](const std::vector<double>& momentum, const std::vector<double>& force,
+                         const std::vector<double>& dashpot, std::vector<double>& velocity)
   {
-    const double m = g.mass[k];
-    const bool active = m > a.smallest_mass;
-    const double safe = active ? m : 1;
-    const double vx = accelerate(a, safe, g.momentum_x[k], g.force_x[k], dashpots ? g.dashpot_x[k] : 0);
-    const double vy = accelerate(a, safe, g.momentum_y[k], g.force_y[k], dashpots ? g.dashpot_y[k] : 0);
-    g.velocity_x[k] = active ? vx : 0;
-    g.velocity_y[k] = active ? vy : 0;
-  }
+    const double *m = &g.mass[from], *p = &momentum[from], *f = &force[from];
+    const double* c = dashpots ? &dashpot[from] : m;
+    double* __restrict v = &velocity[from];
+#pragma GCC ivdep
+    for (int k = 0; k < block_nodes; ++k)
+    {
+      const bool active = m[k] > a.smallest_mass;
+      const double solved = accelerate(a, active ? m[k] : 1, p[k], f[k], dashpots ? c[k] : 0);
+      v[k] = active ? solved : 0;
+    }
+  };
+  solve(g.momentum_x, g.force_x, g.dashpot_x, g.velocity_x);
+  solve(g.momentum_y, g.force_y, g.dashpot_y, g.velocity_y);
 }
 
 /// Sums over the nodes of a block, lane by lane so that they vectorise with one order of summation.
