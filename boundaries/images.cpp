@@ -149,16 +149,16 @@ public:
 
   void add(int k, const ChunkStencils& s, const ImageLoad& load)
   {
-    const Spline<Row> x = s.row(k);
+    const Spline<Row> x = s.x[k];
     const Pairs w = twice(x.weight), f_slope = w * everywhere(load.stress_y);
     const Pairs f_w = twice(x.slope) * everywhere(load.stress_x) + w * everywhere(load.weight);
     const Row m = load.mass * x.weight;
 #pragma GCC unroll 4
     for (int j = 0; j < 4; ++j)
     {
-      force_[j] += s.y_weight[j][k] * f_w;
-      force_[j] += s.y_slope[j][k] * f_slope;
-      if constexpr (inertia) mass_[j] += s.y_weight[j][k] * m;
+      force_[j] += s.y.weight[j][k] * f_w;
+      force_[j] += s.y.slope[j][k] * f_slope;
+      if constexpr (inertia) mass_[j] += s.y.weight[j][k] * m;
     }
   }
 
@@ -198,12 +198,11 @@ void Images::scatter(const Domain& domain, ImageHome& home, const Rows& rows) co
     const int count = std::min(chunk_size, home.end - begin);
     from.take(*this, domain, begin, count);
     stencils.find(tile, from.x, from.y, count);
-    stencils.find_rows(count);
     for (int k = 0; k < count;)
     {
-      const int node = stencils.node[k];
+      const int node = stencils.place.node[k];
       ImageSums<inertia> sums(node);
-      for (; k < count && stencils.node[k] == node; ++k) sums.add(k, stencils, from.load[k]);
+      for (; k < count && stencils.place.node[k] == node; ++k) sums.add(k, stencils, from.load[k]);
       sums.flush(a, home.force);
     }
   }

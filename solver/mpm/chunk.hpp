@@ -37,27 +37,58 @@ private:
 inline constexpr double inverse_weights = 1 / (spline_weight * spline_weight),
                         inverse_slopes = 1 / (spline_slope * spline_weight);
 
-/// Stencils of a chunk of particles, see Spline: along x a row of nodes for each particle, along y the
-/// particles of each node, as broadcasts read them from memory.
-struct ChunkStencils
+/// Where a chunk of particles stands in its tile.
+struct ChunkPlaces
 {
-  alignas(64) double x_fraction[chunk_size]; ///< of the cell
-  alignas(64) double x_weight[chunk_size][4], x_slope[chunk_size][4], x_moment[chunk_size][4];
-  alignas(64) double y_weight[4][chunk_size], y_slope[4][chunk_size], y_moment[4][chunk_size];
-  alignas(64) int node[chunk_size]; ///< first node in the tile
+  alignas(64) double x_fraction[chunk_size], y_fraction[chunk_size]; ///< of the cell
+  alignas(64) int node[chunk_size]; ///< first node of the stencil in the tile
 
-  /// Fills the stencils of `count` particles of a tile, but for the rows along x.
+  /// Fills the places of `count` particles of a tile, and of as many as fill the lanes with the last one.
   void find(const TileStencils& tile, const double* __restrict x, const double* __restrict y, int count);
-  /// Fills the rows along x, for two particles at a time, where that is faster than to find each when it is
-  /// wanted: the scatter gains a tenth, the gather nothing.
-  void find_rows(int count);
-  /// The row of particle k along x, after find_rows().
-  Spline<Row> row(int k) const
+};
+
+/// Splines of a chunk's particles along one direction, node by node of the stencil.
+struct LaneSplines
+{
+  alignas(64) double weight[4][chunk_size], slope[4][chunk_size], moment[4][chunk_size];
+
+  /// Fills those of `count` particles, and of as many as fill the lanes.
+  void find(const double* __restrict fraction, int count);
+};
+
+/// The same, particle by particle: a row of nodes each.
+class RowSplines
+{
+public:
+  /// Fills the rows of `count` particles, two at a time where a register holds both, or leaves them to find
+  /// one by one.
+  void find(const double* fraction, int count);
+  /// Of particle k.
+  Spline<Row> operator[](int k) const
   {
     if constexpr (two_rows_a_register)
-      return {load_row(x_weight[k]), load_row(x_slope[k]), load_row(x_moment[k])};
+      return {load_row(weight_[k]), load_row(slope_[k]), load_row(moment_[k])};
     else
-      return cubic_spline(x_fraction[k]);
+      return cubic_spline(fraction_[k]);
+  }
+
+private:
+  const double* fraction_;
+  alignas(64) double weight_[chunk_size][4], slope_[chunk_size][4], moment_[chunk_size][4];
+};
+
+/// Stencils of a chunk of particles that bring something to the grid, one after the other.
+struct ChunkStencils
+{
+  ChunkPlaces place;
+  RowSplines x;
+  LaneSplines y;
+
+  void find(const TileStencils& tile, const double* px, const double* py, int count)
+  {
+    place.find(tile, px, py, count);
+    x.find(place.x_fraction, count);
+    y.find(place.y_fraction, count);
   }
 };
 

@@ -91,7 +91,8 @@ struct Domain
   /// Whether ground in one of these blocks is awake.
   bool awake_around(const Neighbours& around) const
   {
-    return std::any_of(around.begin(), around.end(), [this](int block)
+    return std::any_of(around.begin(), around.end(),
+                       [this](int block)
                        { return block >= 0 && home_in[block] >= 0 && !homes[home_in[block]].asleep; });
   }
   std::vector<int> place; ///< where a particle id stands now

@@ -1,5 +1,7 @@
 #include "solver/mpm/chunk.hpp"
 
+#include <bit>
+
 namespace mpm
 {
 namespace
@@ -7,82 +9,98 @@ namespace
 /// dt |L| beyond which a step has lost the motion.
 constexpr double greatest_gradient = 1;
 
-/// What the grid tells the particles of a chunk, times the factors of the stencils: sums over the nodes, as
-/// vectors (x, y).
-struct alignas(64) Readings
+/// The cells in which the particles of some lanes stand.
+struct Cells
 {
-  double velocity[chunk_size][2];                          ///< w v
-  double slope_x[chunk_size][2], slope_y[chunk_size][2];   ///< dw/dx v, dw/dy v
-  double moment_x[chunk_size][2], moment_y[chunk_size][2]; ///< w (x_i - x) v, w (y_i - y) v (eq. 3)
-  double change[chunk_size][2];                            ///< w (v* - v), for a FLIP share only
-};
+  int count = 0;
+  int node[lanes]; ///< first of the stencil
+  Selection who[lanes];
 
-/// Greatest components of what was read.
-struct Extremes
-{
-  Pairs velocity{}, gradient{};
-};
-
-template <bool flip>
-void read(const ChunkStencils& s, int count, const PairTile& velocity, const PairTile& change, Readings& out,
-          const Ahead& ahead, Extremes& greatest)
-{
-  for (int begin = 0; begin < count; begin += 4)
+  explicit Cells(const int* nodes)
   {
-    Pairs v[4], slope_x[4], slope_y[4], moment_x[4], moment_y[4], dv[4];
-#pragma GCC unroll 4
-    for (int l = 0; l < 4; ++l)
+    unsigned left = (1u << lanes) - 1;
+    while (left != 0)
     {
-      const int k =
-          std::min(begin + l, count - 1); // the last one again instead of a fourth that is not there
-      ahead.fetch(begin + l);
-      const int node = s.node[k];
-      Pairs u{}, u_moment{}, u_slope{}, du{};
-#pragma GCC unroll 4
-      for (int j = 0; j < 4; ++j)
-      {
-        const Pairs row = load_pairs(&velocity.value[2 * (node + j * tile_stride)]);
-        u += s.y_weight[j][k] * row;
-        u_moment += s.y_moment[j][k] * row;
-        u_slope += s.y_slope[j][k] * row;
-        if constexpr (flip) du += s.y_weight[j][k] * load_pairs(&change.value[2 * (node + j * tile_stride)]);
-      }
-      const Spline<Row> x = cubic_spline(s.x_fraction[k]);
-      const Pairs w = twice(x.weight);
-      v[l] = w * u;
-      slope_x[l] = twice(x.slope) * u;
-      slope_y[l] = w * u_slope;
-      moment_x[l] = twice(x.moment) * u;
-      moment_y[l] = w * u_moment;
-      if constexpr (flip) dv[l] = w * du;
+      node[count] = nodes[std::countr_zero(left)];
+      who[count] = equal(nodes, node[count]);
+      left &= ~bits(who[count]);
+      ++count;
     }
-    const auto sum = [begin](const Pairs* part, double(*to)[2])
-    {
-      const Pairs all = sums(part[0], part[1], part[2], part[3]);
-      store_pairs(to[begin], all);
-      return all;
-    };
-    greatest.velocity = greatest_of(greatest.velocity, sum(v, out.velocity));
-    greatest.gradient = greatest_of(greatest.gradient, sum(slope_x, out.slope_x));
-    greatest.gradient = greatest_of(greatest.gradient, sum(slope_y, out.slope_y));
-    sum(moment_x, out.moment_x);
-    sum(moment_y, out.moment_y);
-    if constexpr (flip) sum(dv, out.change);
   }
+  /// A row of a stencil's nodes, each for the particles of all lanes.
+  [[gnu::always_inline]] void pick(const Tile& field, int row, Lanes (&nodes)[4]) const
+  {
+    const double* from = &field.value[row * tile_stride];
+    for (int i = 0; i < 4; ++i) nodes[i] = from[node[0] + i] - Lanes{};
+    for (int c = 1; c < count; ++c)
+      for (int i = 0; i < 4; ++i) nodes[i] = replaced(nodes[i], who[c], &from[node[c] + i]);
+  }
+};
+
+/// Splines of a chunk in both directions.
+struct Splines
+{
+  LaneSplines x, y;
+};
+
+/// What the grid tells some particles of a field, times the factors of the stencils: sums over the nodes.
+struct Reading
+{
+  Lanes value{};                ///< w v
+  Lanes slope_x{}, slope_y{};   ///< dw/dx v, dw/dy v
+  Lanes moment_x{}, moment_y{}; ///< w (x_i - x) v, w (y_i - y) v (eq. 3)
+};
+
+/// For the particles from k on.
+[[gnu::always_inline]] inline Reading read(const Tile& field, const Cells& cells, const Splines& s, int k)
+{
+  Reading sum;
+#pragma GCC unroll 4
+  for (int j = 0; j < 4; ++j)
+  {
+    Lanes node[4], value{}, slope{}, moment{};
+    cells.pick(field, j, node);
+#pragma GCC unroll 4
+    for (int i = 0; i < 4; ++i)
+    {
+      value += load_lanes(&s.x.weight[i][k]) * node[i];
+      slope += load_lanes(&s.x.slope[i][k]) * node[i];
+      moment += load_lanes(&s.x.moment[i][k]) * node[i];
+    }
+    const Lanes weight = load_lanes(&s.y.weight[j][k]);
+    sum.value += weight * value;
+    sum.slope_x += weight * slope;
+    sum.moment_x += weight * moment;
+    sum.slope_y += load_lanes(&s.y.slope[j][k]) * value;
+    sum.moment_y += load_lanes(&s.y.moment[j][k]) * value;
+  }
+  return sum;
 }
 
 /// Takes the factors of the stencils out of velocities. A rounded 1/36 would change the momentum step by
 /// step; 7/256 is exact, and the rounding of the rest, a 64th of the whole, is too small to matter.
-void take_out_weights(double (*values)[2], int count)
+inline Lanes without_weights(const Lanes& values)
 {
   constexpr double most = 7.0 / 256, rest = 1.0 / 2304;
   static_assert(spline_weight == 6);
-  for (int k = 0; k < count; ++k)
-    for (int c = 0; c < 2; ++c) values[k][c] = values[k][c] * most + values[k][c] * rest;
+  return values * most + values * rest;
 }
 
-/// Change of the nodes' velocities over the step, v* - P/m.
-void read_change(const Grid& grid, const Neighbours& around, const PairTile& velocity, PairTile& change)
+/// Greatest components of what was read.
+struct Extremes
+{
+  Lanes velocity{}, gradient{};
+
+  void take(const Reading& r)
+  {
+    velocity = greatest_of(velocity, r.value);
+    gradient = greatest_of(greatest_of(gradient, r.slope_x), r.slope_y);
+  }
+};
+
+/// Change of the nodes' velocity component over the step, v* - P/m.
+void read_change(const Grid& grid, const Neighbours& around, const std::vector<double>& momentum,
+                 const Tile& velocity, Tile& change)
 {
   change.value.fill(0);
   for_each_run(grid, around,
@@ -92,97 +110,91 @@ void read_change(const Grid& grid, const Neighbours& around, const PairTile& vel
                  {
                    const double m = grid.mass[node + k];
                    if (m <= grid.smallest_mass) continue;
-                   change.value[2 * (place + k)] =
-                       velocity.value[2 * (place + k)] - grid.momentum_x[node + k] / m;
-                   change.value[2 * (place + k) + 1] =
-                       velocity.value[2 * (place + k) + 1] - grid.momentum_y[node + k] / m;
+                   change.value[place + k] = velocity.value[place + k] - momentum[node + k] / m;
                  }
                });
 }
 
-/// The share `blend` of FLIP in the particles' velocities: v + blend (v_p + sum w (v* - P/m) - v), before v_p
-/// is replaced. Particles still move with v (METHODS section 1).
-void blend_velocity(const Particles& p, int begin, int count, double blend, Readings& from)
+/// One component of what the grid tells the particles of a block.
+class Component
 {
-  take_out_weights(from.change, count);
-  for (int k = 0; k < count; ++k)
+public:
+  Component(const Grid& grid, const Neighbours& around, const std::vector<double>& velocity,
+            const std::vector<double>& momentum, bool flip)
   {
-    double &ux = from.change[k][0], &uy = from.change[k][1];
-    ux = from.velocity[k][0] + blend * (p.velocity_x[begin + k] + ux - from.velocity[k][0]);
-    uy = from.velocity[k][1] + blend * (p.velocity_y[begin + k] + uy - from.velocity[k][1]);
+    read_tile(grid, around, velocity, velocity_);
+    if (flip) read_change(grid, around, momentum, velocity_, change_);
   }
-}
 
-/// v = sum w v*, C = D^-1 sum w v* (x_i - x)^T (eq. 3), L = sum v* grad w; moves the particles with v.
-void apply(Particles& p, int begin, int count, const Readings& from, double spacing, double dt, bool flip,
-           VelocityGradients& L)
-{
-  const double affine = 3 * inverse_weights / spacing, slope = inverse_slopes / spacing; // D = h^2 / 3
-  const auto* velocity = flip ? from.change : from.velocity;
-  double* __restrict x = &p.x[begin], * __restrict y = &p.y[begin];
-  double* __restrict vx = &p.velocity_x[begin], * __restrict vy = &p.velocity_y[begin];
-  double* __restrict cxx = &p.affine_xx[begin], * __restrict cxy = &p.affine_xy[begin];
-  double* __restrict cyx = &p.affine_yx[begin], * __restrict cyy = &p.affine_yy[begin];
-#pragma GCC ivdep
-  for (int k = 0; k < count; ++k)
+  /// v = sum w v*, C = D^-1 sum w v* (x_i - x)^T (eq. 3), L = sum v* grad w of the n particles from k of a
+  /// chunk on; moves them with v. With a share `blend` of FLIP particles take v + blend (v_p + sum w (v* -
+  /// P/m) - v) (METHODS section 1).
+  [[gnu::always_inline]] inline void apply(const Cells& cells, const Splines& s, int k, int n, double blend,
+                                           double spacing, double dt, double* x, double* velocity,
+                                           double* affine_x, double* affine_y, double* gradient_x,
+                                           double* gradient_y, Extremes& greatest) const
   {
-    vx[k] = velocity[k][0];
-    vy[k] = velocity[k][1];
+    const double affine = 3 * inverse_weights / spacing, slope = inverse_slopes / spacing; // D = h^2 / 3
+    const Reading r = read(velocity_, cells, s, k);
+    greatest.take(r);
+    const Lanes v = without_weights(r.value);
+    store_lanes(x, load_lanes(x, n) + dt * v, n);
+    if (blend > 0)
+    {
+      const Lanes change = without_weights(read(change_, cells, s, k).value);
+      store_lanes(velocity, v + blend * (load_lanes(velocity, n) + change - v), n);
+    }
+    else
+      store_lanes(velocity, v, n);
+    store_lanes(affine_x, affine * r.moment_x, n);
+    store_lanes(affine_y, affine * r.moment_y, n);
+    store_lanes(gradient_x, slope * r.slope_x);
+    store_lanes(gradient_y, slope * r.slope_y);
   }
-#pragma GCC ivdep
-  for (int k = 0; k < count; ++k)
-  {
-    x[k] += dt * from.velocity[k][0];
-    y[k] += dt * from.velocity[k][1];
-  }
-#pragma GCC ivdep
-  for (int k = 0; k < count; ++k)
-  {
-    cxx[k] = affine * from.moment_x[k][0];
-    cyx[k] = affine * from.moment_x[k][1];
-    cxy[k] = affine * from.moment_y[k][0];
-    cyy[k] = affine * from.moment_y[k][1];
-  }
-#pragma GCC ivdep
-  for (int k = 0; k < count; ++k)
-  {
-    L.xx[k] = slope * from.slope_x[k][0];
-    L.yx[k] = slope * from.slope_x[k][1];
-    L.xy[k] = slope * from.slope_y[k][0];
-    L.yy[k] = slope * from.slope_y[k][1];
-  }
-}
+
+private:
+  Tile velocity_, change_;
+};
 
 /// Greatest displacement component of a block's particles in cells; infinite when one is deformed wholly.
 double update_home(Domain& domain, const Home& home, double dt)
 {
   const Grid& grid = domain.grid;
-  const bool flip = domain.flip_blend > 0;
-  PairTile velocity, change;
-  read_tile(grid, home.around, grid.velocity_x, grid.velocity_y, velocity);
-  if (flip) read_change(grid, home.around, velocity, change);
+  const double blend = domain.flip_blend, h = grid.spacing;
+  const Component x(grid, home.around, grid.velocity_x, grid.momentum_x, blend > 0);
+  const Component y(grid, home.around, grid.velocity_y, grid.momentum_y, blend > 0);
   const TileStencils tile(grid, home.block);
-  ChunkStencils stencils;
-  Readings readings;
-  VelocityGradients gradients;
+  ChunkPlaces places;
+  Splines splines;
+  VelocityGradients L;
   Particles& p = domain.particles;
   Extremes greatest;
-  for_each_chunk(
-      home,
-      [&](int material, int begin, int count)
-      {
-        stencils.find(tile, &p.x[begin], &p.y[begin], count);
-        const Material& m = domain.materials[material];
-        const auto state = [&](std::size_t k)
-        { return k < m.state.size() ? &m.state[k][begin - domain.material_begin[material]] : &p.x[begin]; };
-        const Ahead ahead(p, begin, &p.stress_zz[begin], state(0), state(1));
-        (flip ? read<true> : read<false>)(stencils, count, velocity, change, readings, ahead, greatest);
-        take_out_weights(readings.velocity, count);
-        if (flip) blend_velocity(p, begin, count, domain.flip_blend, readings);
-        apply(p, begin, count, readings, grid.spacing, dt, flip, gradients);
-        update_particles(domain, material, begin, count, gradients, dt);
-      });
-  const double courant = dt / grid.spacing;
+  for_each_chunk(home,
+                 [&](int material, int begin, int count)
+                 {
+                   places.find(tile, &p.x[begin], &p.y[begin], count);
+                   splines.x.find(places.x_fraction, count);
+                   splines.y.find(places.y_fraction, count);
+                   const Material& m = domain.materials[material];
+                   const auto state = [&](std::size_t k) {
+                     return k < m.state.size() ? &m.state[k][begin - domain.material_begin[material]]
+                                               : &p.x[begin];
+                   };
+                   const Ahead ahead(p, begin, &p.stress_zz[begin], state(0), state(1));
+                   for (int k = 0; k < count; k += lanes)
+                   {
+#pragma GCC unroll 8
+                     for (int l = 0; l < lanes; ++l) ahead.fetch(k + l);
+                     const Cells cells(&places.node[k]);
+                     const int q = begin + k, n = std::min(lanes, count - k);
+                     x.apply(cells, splines, k, n, blend, h, dt, &p.x[q], &p.velocity_x[q], &p.affine_xx[q],
+                             &p.affine_xy[q], &L.xx[k], &L.xy[k], greatest);
+                     y.apply(cells, splines, k, n, blend, h, dt, &p.y[q], &p.velocity_y[q], &p.affine_yx[q],
+                             &p.affine_yy[q], &L.yx[k], &L.yy[k], greatest);
+                   }
+                   update_particles(domain, material, begin, count, L, dt);
+                 });
+  const double courant = dt / h;
   if (greatest_of(greatest.gradient) * inverse_slopes * courant > greatest_gradient)
     return std::numeric_limits<double>::infinity();
   return greatest_of(greatest.velocity) * inverse_weights * courant;

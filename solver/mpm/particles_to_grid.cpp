@@ -47,7 +47,7 @@ public:
 
   void add(const ChunkStencils& s, const Sources& from, int k)
   {
-    const Spline<Row> x = s.row(k);
+    const Spline<Row> x = s.x[k];
     const Pairs w = twice(x.weight), slope = twice(x.slope), moment = twice(x.moment);
     const Row m = from.mass[k] * x.weight;
     const Pairs p_w = w * everywhere(from.momentum[k]) + moment * everywhere(from.spread_x[k]);
@@ -56,7 +56,7 @@ public:
 #pragma GCC unroll 4
     for (int j = 0; j < 4; ++j)
     {
-      const double wy = s.y_weight[j][k], dwy = s.y_slope[j][k], my = s.y_moment[j][k];
+      const double wy = s.y.weight[j][k], dwy = s.y.slope[j][k], my = s.y.moment[j][k];
       mass_[j] += wy * m;
       momentum_[j] += wy * p_w;
       momentum_[j] += my * p_moment;
@@ -90,9 +90,9 @@ void scatter(const ChunkStencils& stencils, const Sources& sources, int count, T
 {
   for (int k = 0; k < count;)
   {
-    const int node = stencils.node[k];
+    const int node = stencils.place.node[k];
     CellSums sums(node);
-    for (; k < count && stencils.node[k] == node; ++k)
+    for (; k < count && stencils.place.node[k] == node; ++k)
     {
       ahead.fetch(k);
       sums.add(stencils, sources, k);
@@ -117,7 +117,6 @@ void scatter_range(Domain& domain, const Home& home, const Range& range)
                    const double* none = &p.x[begin];
                    const Ahead ahead(p, begin, none, none, none);
                    stencils.find(tile, &p.x[begin], &p.y[begin], count);
-                   stencils.find_rows(count);
                    sources.gather(p, begin, count, mass_scale, domain.grid.spacing);
                    scatter(stencils, sources, count, tiles, ahead);
                  });

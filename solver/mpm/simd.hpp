@@ -1,5 +1,6 @@
 #pragma once
-// The one place for vectors: four neighbouring grid nodes of a row, as scalars or as (x, y) pairs.
+// The one place for vectors: four neighbouring grid nodes of a row, as scalars or as (x, y) pairs, and lanes
+// of particles.
 
 #include <algorithm>
 #include <cstring>
@@ -91,32 +92,27 @@ inline Pairs greatest_of(const Pairs& so_far, const Pairs& value)
   constexpr int greatest_magnitude = 0b1011;
   return reinterpret_cast<Pairs>(_mm512_maskz_range_pd(0xFF, so_far, value, greatest_magnitude));
 }
-/// The greatest of all numbers.
-inline double greatest_of(const Pairs& of)
+
+/// One number of each of several particles.
+using Lanes = Pairs;
+/// Some of the lanes.
+using Selection = __mmask8;
+
+/// Lanes whose integer is the wanted one.
+inline Selection equal(const int* values, int wanted)
 {
-  double greatest = 0;
-  for (int k = 0; k < 8; ++k) greatest = std::max(greatest, of[k]);
-  return greatest;
+  return _mm256_cmpeq_epi32_mask(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(values)),
+                                 _mm256_set1_epi32(wanted));
 }
-/// The vectors of four arguments, each summed over its nodes, side by side.
-inline Pairs sums(const Pairs& a, const Pairs& b, const Pairs& c, const Pairs& d)
+/// A bit for each of the lanes.
+inline unsigned bits(Selection selected)
 {
-  const auto half = [](const Pairs& p, const Pairs& q)
-  {
-    return __builtin_shufflevector(p, q, 0, 1, 2, 3, 8, 9, 10, 11) +
-           __builtin_shufflevector(p, q, 4, 5, 6, 7, 12, 13, 14, 15);
-  };
-  const Pairs ab = half(a, b), cd = half(c, d);
-  return __builtin_shufflevector(ab, cd, 0, 1, 4, 5, 8, 9, 12, 13) +
-         __builtin_shufflevector(ab, cd, 2, 3, 6, 7, 10, 11, 14, 15);
+  return selected;
 }
-/// The vectors of two arguments, each summed over its nodes, side by side.
-inline Row sums(const Pairs& a, const Pairs& b)
+/// The number at `by` in the selected lanes, what was there in the others.
+inline Lanes replaced(const Lanes& values, Selection where, const double* by)
 {
-  const auto half = [](const Pairs& p)
-  { return __builtin_shufflevector(p, p, 0, 1, 2, 3) + __builtin_shufflevector(p, p, 4, 5, 6, 7); };
-  const Row u = half(a), v = half(b);
-  return __builtin_shufflevector(u, v, 0, 1, 4, 5) + __builtin_shufflevector(u, v, 2, 3, 6, 7);
+  return reinterpret_cast<Lanes>(_mm512_mask_broadcastsd_pd(values, where, _mm_load_sd(by)));
 }
 
 #else
@@ -157,34 +153,69 @@ inline Pairs both(const double* row)
 }
 inline Pairs both(double first, double second)
 {
-  return {first + Row{}, second + Row{}};
+  return {first - Row{}, second - Row{}};
 }
 inline Pairs everywhere(const double* vector)
 {
   const Row row{vector[0], vector[1], vector[0], vector[1]};
   return {row, row};
 }
-inline Pairs greatest_of(const Pairs& so_far, const Pairs& value)
+
+using Lanes = Row;
+typedef long long Selection __attribute__((vector_size(32)));
+
+inline Selection equal(const int* values, int wanted)
 {
-  const auto greater = [](const Row& a, const Row& b) { return a > b ? a : b; };
-  const auto greatest = [&](const Row& a, const Row& b) { return greater(-b, greater(b, a)); };
-  return {greatest(so_far.left, value.left), greatest(so_far.right, value.right)};
+  return Selection{values[0], values[1], values[2], values[3]} == wanted;
 }
-inline double greatest_of(const Pairs& of)
+inline unsigned bits(const Selection& selected)
 {
-  double greatest = 0;
-  for (int k = 0; k < 4; ++k) greatest = std::max({greatest, of.left[k], of.right[k]});
-  return greatest;
+  unsigned all = 0;
+  for (int k = 0; k < 4; ++k) all |= selected[k] ? 1u << k : 0;
+  return all;
 }
-inline Row sums(const Pairs& a, const Pairs& b)
+inline Lanes replaced(const Lanes& values, const Selection& where, const double* by)
 {
-  const Row u = a.left + a.right, v = b.left + b.right;
-  return __builtin_shufflevector(u, v, 0, 1, 4, 5) + __builtin_shufflevector(u, v, 2, 3, 6, 7);
+  return where ? *by - Lanes{} : values;
 }
-inline Pairs sums(const Pairs& a, const Pairs& b, const Pairs& c, const Pairs& d)
+inline Lanes greatest_of(const Lanes& so_far, const Lanes& value)
 {
-  return {sums(a, b), sums(c, d)};
+  const auto greater = [](const Lanes& a, const Lanes& b) { return a > b ? a : b; };
+  return greater(-value, greater(value, so_far));
 }
 
 #endif
+
+inline constexpr int lanes = sizeof(Lanes) / sizeof(double);
+
+inline Lanes load_lanes(const double* from)
+{
+  Lanes values;
+  std::memcpy(&values, from, sizeof values);
+  return values;
+}
+inline void store_lanes(double* to, const Lanes& values)
+{
+  std::memcpy(to, &values, sizeof values);
+}
+/// The first `count` lanes, zeros in the others.
+inline Lanes load_lanes(const double* from, int count)
+{
+  if (count >= lanes) return load_lanes(from);
+  Lanes values{};
+  for (int k = 0; k < count; ++k) values[k] = from[k];
+  return values;
+}
+inline void store_lanes(double* to, const Lanes& values, int count)
+{
+  if (count >= lanes) return store_lanes(to, values);
+  for (int k = 0; k < count; ++k) to[k] = values[k];
+}
+/// The greatest lane that is above zero.
+inline double greatest_of(const Lanes& of)
+{
+  double greatest = 0;
+  for (int k = 0; k < lanes; ++k) greatest = std::max(greatest, of[k]);
+  return greatest;
+}
 } // namespace mpm

@@ -26,7 +26,7 @@ void solve_block(Grid& g, int block, const Parameters& a)
 {
   const int from = block * block_nodes;
   const auto solve = [&, a](const std::vector<double>& momentum, const std::vector<double>& force,
-                         const std::vector<double>& dashpot, std::vector<double>& velocity)
+                            const std::vector<double>& dashpot, std::vector<double>& velocity)
   {
     const double *m = &g.mass[from], *p = &momentum[from], *f = &force[from];
     const double* c = dashpots ? &dashpot[from] : m;
