@@ -52,7 +52,7 @@ struct Reading
 };
 
 /// For the particles from k on.
-[[gnu::always_inline]] inline Reading read(const Tile& field, const Cells& cells, const Splines& s, int k)
+[[gnu::noinline]] Reading read(const Tile& field, const Cells& cells, const Splines& s, int k)
 {
   Reading sum;
 #pragma GCC unroll 4
@@ -183,10 +183,10 @@ double update_home(Domain& domain, const Home& home, double dt)
                    const Ahead ahead(p, begin, &p.stress_zz[begin], state(0), state(1));
                    for (int k = 0; k < count; k += lanes)
                    {
-#pragma GCC unroll 8
-                     for (int l = 0; l < lanes; ++l) ahead.fetch(k + l);
                      const Cells cells(&places.node[k]);
                      const int q = begin + k, n = std::min(lanes, count - k);
+                     for (int quarter = (k & 7) / 2; quarter < ((k & 7) + lanes) / 2; ++quarter)
+                       ahead.fetch(k & ~7, quarter);
                      x.apply(cells, splines, k, n, blend, h, dt, &p.x[q], &p.velocity_x[q], &p.affine_xx[q],
                              &p.affine_xy[q], &L.xx[k], &L.xy[k], greatest);
                      y.apply(cells, splines, k, n, blend, h, dt, &p.y[q], &p.velocity_y[q], &p.affine_yx[q],

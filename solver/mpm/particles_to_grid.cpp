@@ -94,7 +94,7 @@ void scatter(const ChunkStencils& stencils, const Sources& sources, int count, T
     CellSums sums(node);
     for (; k < count && stencils.place.node[k] == node; ++k)
     {
-      ahead.fetch(k);
+      if ((k & 1) == 0) ahead.fetch(k & ~7, (k & 6) / 2);
       sums.add(stencils, sources, k);
     }
     sums.flush(tiles);

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstring>
 #include <string_view>
-#ifdef __AVX512F__
+#ifdef __AVX__
 #include <immintrin.h>
 #endif
 
@@ -170,6 +170,9 @@ inline Selection equal(const int* values, int wanted)
 }
 inline unsigned bits(const Selection& selected)
 {
+#ifdef __AVX__
+  return static_cast<unsigned>(_mm256_movemask_pd(reinterpret_cast<__m256d>(selected)));
+#endif
   unsigned all = 0;
   for (int k = 0; k < 4; ++k) all |= selected[k] ? 1u << k : 0;
   return all;
