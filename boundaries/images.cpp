@@ -130,9 +130,12 @@ struct ImageSources
     const double factors[8] = {stress, stress, stress, stress, weight, weight, weight, 0};
     static_assert(sizeof(ImageLoad) == sizeof factors);
     const Pairs all = load_pairs(factors);
+    const int last = static_cast<int>(images.list.size()) - 1;
     for (int k = 0; k < count; ++k)
     {
       const Image& image = images.list[begin + k];
+      const Image& later = images.list[std::min(begin + k + 16, last)];
+      __builtin_prefetch(&images.loads[later.load]); // which no order of the list makes neighbours
       x[k] = domain.particles.x[image.place] + image.offset.x();
       y[k] = domain.particles.y[image.place] + image.offset.y();
       store_pairs(load[k].stress_x, all * load_pairs(images.loads[image.load].stress_x));

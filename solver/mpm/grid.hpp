@@ -180,9 +180,25 @@ void for_each_run(const Grid& grid, const Neighbours& around, const Function& f)
   }
 }
 
+/// Adds a tile, or one component of a tile of vectors, to the column of nodes of a wrapped grid.
+template <int components>
+void add_to_column(const Neighbours& around, const double* tile, std::vector<double>& field)
+{
+  for (int row = 0; row < tile_nodes; ++row)
+  {
+    const int y = row - tile_margin, block = around[y < 0 ? 1 : y < block_cells ? 4 : 7];
+    if (block < 0) continue;
+    double sum = 0;
+    for (int column = 0; column < tile_nodes; ++column)
+      sum += tile[components * (row * tile_stride + column)];
+    field[block * block_nodes + (y & (block_cells - 1)) * block_cells] += sum;
+  }
+}
+
 /// Adds a tile to the node field of the blocks around it.
 inline void add_tile(const Grid& grid, const Neighbours& around, const Tile& tile, std::vector<double>& field)
 {
+  if (grid.wrapped) return add_to_column<1>(around, tile.value.data(), field);
   for_each_run(grid, around,
                [&](int node, int place, auto count)
                {
@@ -195,6 +211,12 @@ inline void add_tile(const Grid& grid, const Neighbours& around, const Tile& til
 inline void add_tile(const Grid& grid, const Neighbours& around, const PairTile& tile, std::vector<double>& x,
                      std::vector<double>& y)
 {
+  if (grid.wrapped)
+  {
+    add_to_column<2>(around, tile.value.data(), x);
+    add_to_column<2>(around, tile.value.data() + 1, y);
+    return;
+  }
   for_each_run(grid, around,
                [&](int node, int place, auto count)
                {

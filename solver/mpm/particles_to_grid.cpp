@@ -101,14 +101,11 @@ void scatter(const ChunkStencils& stencils, const Sources& sources, int count, T
   }
 }
 
-/// Adds one material's particles of a block to the grid.
-void scatter_range(Domain& domain, const Home& home, const Range& range)
+/// Adds one material's particles of a block to its tiles.
+void scatter_range(const Domain& domain, const TileStencils& tile, const Range& range, double mass_scale,
+                   Tiles& tiles)
 {
-  Tiles tiles;
-  std::memset(&tiles, 0, sizeof tiles);
-  const TileStencils tile(domain.grid, home.block);
   const Particles& p = domain.particles;
-  const double mass_scale = domain.materials[range.material].mass_scale;
   ChunkStencils stencils;
   Sources sources;
   for_each_chunk(range,
@@ -120,21 +117,31 @@ void scatter_range(Domain& domain, const Home& home, const Range& range)
                    sources.gather(p, begin, count, mass_scale, domain.grid.spacing);
                    scatter(stencils, sources, count, tiles, ahead);
                  });
-  const double gx = domain.gravity_x / mass_scale, gy = domain.gravity_y / mass_scale;
-  for (int k = 0; k < tile_size; ++k)
-  {
-    tiles.force.value[2 * k] += gx * tiles.mass.value[k];
-    tiles.force.value[2 * k + 1] += gy * tiles.mass.value[k];
-  }
-  Grid& grid = domain.grid;
-  add_tile(grid, home.around, tiles.mass, grid.mass);
-  add_tile(grid, home.around, tiles.momentum, grid.momentum_x, grid.momentum_y);
-  add_tile(grid, home.around, tiles.force, grid.force_x, grid.force_y);
 }
 
+/// Adds the particles of a block to the grid, materials of the same mass scale together.
 void scatter_home(Domain& domain, const Home& home)
 {
-  for (const Range& range : home.ranges) scatter_range(domain, home, range);
+  Grid& grid = domain.grid;
+  const TileStencils tile(grid, home.block);
+  const auto scale_of = [&](const Range& range) { return domain.materials[range.material].mass_scale; };
+  for (auto range = home.ranges.begin(); range != home.ranges.end();)
+  {
+    Tiles tiles;
+    std::memset(&tiles, 0, sizeof tiles);
+    const double mass_scale = scale_of(*range);
+    for (; range != home.ranges.end() && scale_of(*range) == mass_scale; ++range)
+      scatter_range(domain, tile, *range, mass_scale, tiles);
+    const double gx = domain.gravity_x / mass_scale, gy = domain.gravity_y / mass_scale;
+    for (int k = 0; k < tile_size; ++k)
+    {
+      tiles.force.value[2 * k] += gx * tiles.mass.value[k];
+      tiles.force.value[2 * k + 1] += gy * tiles.mass.value[k];
+    }
+    add_tile(grid, home.around, tiles.mass, grid.mass);
+    add_tile(grid, home.around, tiles.momentum, grid.momentum_x, grid.momentum_y);
+    add_tile(grid, home.around, tiles.force, grid.force_x, grid.force_y);
+  }
 }
 } // namespace
 
