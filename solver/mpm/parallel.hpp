@@ -35,12 +35,15 @@ public:
   void add(long cost) { before_.push_back(before_.back() + cost); }
   int size() const { return static_cast<int>(before_.size()) - 1; }
   long cost() const { return before_.back(); }
-  /// First item of a thread's stretch; for thread = team the end.
+  /// First item of a thread's stretch, as near to its part of the cost as items allow; for thread = team the
+  /// end.
   int first(int thread, int team) const
   {
     if (thread == team) return size();
-    const auto at = std::lower_bound(before_.begin(), before_.end(), cost() * thread / team);
-    return std::min(static_cast<int>(at - before_.begin()), size());
+    const long part = cost() * thread / team;
+    const int next =
+        static_cast<int>(std::lower_bound(before_.begin(), before_.end(), part) - before_.begin());
+    return next > 0 && part - before_[next - 1] < before_[next] - part ? next - 1 : next;
   }
 
 private:
