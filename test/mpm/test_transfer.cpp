@@ -1,3 +1,4 @@
+#include "solver/mpm/spline.hpp"
 #include "test/scenes.hpp"
 
 #include <catch2/catch.hpp>
@@ -117,4 +118,66 @@ TEST_CASE("Two particles that approach feel nothing beyond four cells, and each 
   CHECK(p.velocity_x[domain.place[0]] < 0.99 * speed);
   // What one loses the other does too.
   CHECK(std::fabs(p.velocity_x[domain.place[0]] + p.velocity_x[domain.place[1]]) / speed < 1e-13);
+}
+
+TEST_CASE("Particles that have left their cells since the sort read what the definition says, each by itself",
+          "[mpm]")
+{
+  const Threads one(1);
+  const double blend = GENERATE(0.0, 0.4), h = 0.8, dt = 1e-3;
+  // 21 x 11 particles: stretches of a block end within a vector of particles.
+  Domain domain = make_domain({{elastic(1e-6), {-3 * h, h, 7 * h, 3.6667 * h}, h / 3}}, h, 0.4, 51);
+  domain.flip_blend = blend;
+  random_velocities(domain, 1, 52);
+  particles_to_grid(domain, dt);
+  solve_grid(domain, dt);
+  Random random(53);
+  Grid& g = domain.grid;
+  Particles& p = domain.particles;
+  for (int node = 0; node < g.nodes(); ++node)
+  {
+    g.velocity_x[node] = random(-1, 1);
+    g.velocity_y[node] = random(-1, 1);
+  }
+  for (int k = 0; k < p.size(); ++k) // so that neighbours in the order stand in several cells
+  {
+    p.x[k] += random(-0.7, 0.7) * h;
+    p.y[k] += random(-0.7, 0.7) * h;
+  }
+  const Particles before = p;
+  grid_to_particles(domain, dt);
+
+  // Sums of 16 products of splines, with moments of at most 2 h: some 20 roundings of numbers up to 1.
+  const double rounding = 20 * std::numeric_limits<double>::epsilon();
+  double velocity = 0, place = 0, affine = 0;
+  for (int k = 0; k < p.size(); ++k)
+  {
+    const Stencil x = cubic_stencil(before.x[k], h), y = cubic_stencil(before.y[k], h);
+    double v[2]{}, change[2]{}, C[2][2]{};
+    for (int j = 0; j < 4; ++j)
+      for (int i = 0; i < 4; ++i)
+      {
+        const int node = g.node(x.first + i, y.first + j);
+        REQUIRE(node >= 0);
+        const double w = x.weight[i] * y.weight[j], now[2] = {g.velocity_x[node], g.velocity_y[node]};
+        const double momentum[2] = {g.momentum_x[node], g.momentum_y[node]};
+        for (int c = 0; c < 2; ++c)
+        {
+          v[c] += w * now[c];
+          if (g.mass[node] > g.smallest_mass) change[c] += w * (now[c] - momentum[c] / g.mass[node]);
+          C[c][0] += 3 / (h * h) * w * x.offset[i] * now[c];
+          C[c][1] += 3 / (h * h) * w * y.offset[j] * now[c];
+        }
+      }
+    const double vx = v[0] + blend * (before.velocity_x[k] + change[0] - v[0]);
+    const double vy = v[1] + blend * (before.velocity_y[k] + change[1] - v[1]);
+    velocity = std::max({velocity, std::fabs(p.velocity_x[k] - vx), std::fabs(p.velocity_y[k] - vy)});
+    place = std::max(
+        {place, std::fabs(p.x[k] - before.x[k] - dt * v[0]), std::fabs(p.y[k] - before.y[k] - dt * v[1])});
+    affine = std::max({affine, std::fabs(p.affine_xx[k] - C[0][0]), std::fabs(p.affine_xy[k] - C[0][1]),
+                       std::fabs(p.affine_yx[k] - C[1][0]), std::fabs(p.affine_yy[k] - C[1][1])});
+  }
+  CHECK(velocity < 3 * rounding); // two sums and the particle's own velocity
+  CHECK(place < 6 * rounding);    // at up to 6 m
+  CHECK(affine < 6 / h * rounding);
 }
