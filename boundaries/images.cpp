@@ -135,7 +135,7 @@ struct ImageSources
     {
       const Image& image = images.list[begin + k];
       const Image& later = images.list[std::min(begin + k + 16, last)];
-      __builtin_prefetch(&images.loads[later.load]); // which no order of the list makes neighbours
+      __builtin_prefetch(&images.loads[later.load]); // neighbours in the list need not be here
       x[k] = domain.particles.x[image.place] + image.offset.x();
       y[k] = domain.particles.y[image.place] + image.offset.y();
       store_pairs(load[k].stress_x, all * load_pairs(images.loads[image.load].stress_x));

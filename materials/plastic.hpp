@@ -17,6 +17,7 @@ inline constexpr std::array<StateField, 3> flow_and_opening{
 
 /// Calls f(begin, n, over) for stretches of a batch in which a point has excess(k) > 0; over[k] is what
 /// excess(begin + k) was. Finding them vectorises, so that a batch in which nobody yields costs little.
+/// Inline, or the loops of f would not be vectors.
 template <class Excess, class Function>
 [[gnu::always_inline]] inline void for_each_stretch_beyond(int count, const Excess& excess, const Function& f)
 {

@@ -69,6 +69,7 @@ struct VonMises : Elastic, LinearSoftening
 private:
   void return_to_yield_surface(const StressBatch& s, double* __restrict strain) const
   {
+    // All that the loops need is a copy: a member that a store might change keeps them from being vectors.
     const double stiffness = 3 * shear_modulus(), top = peak, bottom = residual;
     const double slope = (bottom - top) / softening_strain;
     const double softening_rate = 1 / (stiffness + slope), residual_rate = 1 / stiffness;
