@@ -104,10 +104,20 @@ inline Selection equal(const int* values, int wanted)
   return _mm256_cmpeq_epi32_mask(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(values)),
                                  _mm256_set1_epi32(wanted));
 }
+/// Lanes that are greater than those of another vector; none that are no number.
+inline Selection above(const Lanes& values, const Lanes& than)
+{
+  return _mm512_cmp_pd_mask(values, than, _CMP_GT_OQ);
+}
 /// A bit for each of the lanes.
 inline unsigned bits(Selection selected)
 {
   return selected;
+}
+/// One vector's numbers in the selected lanes, another's in the others.
+inline Lanes chosen(Selection where, const Lanes& these, const Lanes& others)
+{
+  return reinterpret_cast<Lanes>(_mm512_mask_blend_pd(where, others, these));
 }
 /// The number at `by` in the selected lanes, what was there in the others.
 inline Lanes replaced(const Lanes& values, Selection where, const double* by)
@@ -167,6 +177,14 @@ typedef long long Selection __attribute__((vector_size(32)));
 inline Selection equal(const int* values, int wanted)
 {
   return Selection{values[0], values[1], values[2], values[3]} == wanted;
+}
+inline Selection above(const Lanes& values, const Lanes& than)
+{
+  return values > than;
+}
+inline Lanes chosen(const Selection& where, const Lanes& these, const Lanes& others)
+{
+  return where ? these : others;
 }
 inline unsigned bits(const Selection& selected)
 {

@@ -12,85 +12,129 @@ struct Parameters
   double dt, smallest_mass, damping;
 };
 
-/// Newton's law with local damping (eq. 1) and the centred dashpot (METHODS section 4): never unstable.
-inline double accelerate(const Parameters& a, double m, double momentum, double f, double c)
+/// Neighbouring nodes of a row, one a lane; those without mass count as 1 kg and are left out.
+struct Nodes
 {
-  const double v = momentum / m;
-  const double damped = f - a.damping * std::fabs(f) * ((v > 0) - (v < 0));
-  const double half = 0.5 * a.dt * c;
-  return ((m - half) * v + a.dt * damped) / (m + half);
-}
+  int first; ///< place in the node fields
+  Selection active;
+  Lanes mass, inverse_mass;
 
-template <bool dashpots>
-void solve_block(Grid& g, int block, const Parameters& a)
-{
-  const int from = block * block_nodes;
-  const auto solve = [&, a](const std::vector<double>& momentum, const std::vector<double>& force,
-                            const std::vector<double>& dashpot, std::vector<double>& velocity)
+  Nodes(const Grid& g, int node, double smallest_mass) : first(node)
   {
-    const double *m = &g.mass[from], *p = &momentum[from], *f = &force[from];
-    const double* c = dashpots ? &dashpot[from] : m;
-    double* __restrict v = &velocity[from];
-#pragma GCC ivdep
-    for (int k = 0; k < block_nodes; ++k)
-    {
-      const bool active = m[k] > a.smallest_mass;
-      const double solved = accelerate(a, active ? m[k] : 1, p[k], f[k], dashpots ? c[k] : 0);
-      v[k] = active ? solved : 0;
-    }
-  };
-  solve(g.momentum_x, g.force_x, g.dashpot_x, g.velocity_x);
-  solve(g.momentum_y, g.force_y, g.dashpot_y, g.velocity_y);
-}
-
-/// Sums over the nodes of a block, lane by lane so that they vectorise with one order of summation.
-struct Lanes
-{
-  alignas(64) std::array<double, block_cells> work{}, damping{}, momentum_x{}, momentum_y{};
+    const Lanes all = load_lanes(&g.mass[node]);
+    active = above(all, Lanes{} + smallest_mass);
+    mass = chosen(active, all, Lanes{} + 1);
+    inverse_mass = 1 / mass;
+  }
+  bool empty() const { return bits(active) == 0; }
+  Lanes of(const std::vector<double>& field) const { return load_lanes(&field[first]); }
 };
 
-/// One component of one node, of which `part` is counted.
-inline void add_work(Lanes& sum, int lane, const Parameters& a, double part, double m, double momentum,
-                     double f, double v, double impulse)
+/// What damping takes from a force: beta |f| sign(v) (eq. 1).
+inline Lanes damped(const Parameters& a, const Lanes& force, const Lanes& velocity)
 {
-  const double before = momentum / m, middle = 0.5 * (before + v);
-  sum.work[lane] += part * impulse * middle;
-  sum.damping[lane] += part * a.dt * a.damping * std::fabs(f) * ((before > 0) - (before < 0)) * middle;
+  const Lanes most = a.damping * chosen(above(force, Lanes{}), force, -force);
+  return chosen(above(velocity, Lanes{}), most, chosen(above(Lanes{}, velocity), -most, Lanes{}));
 }
 
-/// What the forces did to the nodes of a block in the step (StepWork).
-StepWork work_of_block(const Grid& g, int block, const Parameters& a, bool corrected)
+/// One component of the nodes' motion in the step.
+struct Motion
 {
-  static constexpr auto whole = []
+  Lanes momentum, force, before, after;
+
+  Motion(const Nodes& nodes, const std::vector<double>& momenta, const std::vector<double>& forces)
+      : momentum(nodes.of(momenta)), force(nodes.of(forces)), before(nodes.inverse_mass * momentum)
   {
-    std::array<double, block_nodes> ones{};
-    ones.fill(1);
-    return ones;
-  }();
-  const double* share = g.share.empty() ? whole.data() : &g.share[block * block_nodes];
-  Lanes sum;
-  for (int row = 0; row < block_cells; ++row)
-    for (int lane = 0; lane < block_cells; ++lane)
-    {
-      const int place = row * block_cells + lane, k = block * block_nodes + place;
-      const bool active = g.mass[k] > a.smallest_mass;
-      const double part = active ? share[place] : 0, m = active ? g.mass[k] : 1;
-      const double px = g.momentum_x[k], py = g.momentum_y[k], vx = g.velocity_x[k], vy = g.velocity_y[k];
-      // What neighbours exchange is no work of a force: the transfer between particles and grid holds it.
-      add_work(sum, lane, a, part, m, px, g.force_x[k], vx, corrected ? m * g.change_x[k] : m * vx - px);
-      add_work(sum, lane, a, part, m, py, g.force_y[k], vy, corrected ? m * g.change_y[k] : m * vy - py);
-      sum.momentum_x[lane] += 0.5 * part * (px + m * vx);
-      sum.momentum_y[lane] += 0.5 * part * (py + m * vy);
-    }
-  StepWork total;
-  for (int lane = 0; lane < block_cells; ++lane)
-  {
-    total.work += sum.work[lane];
-    total.damping += sum.damping[lane];
-    total.momentum[0] += sum.momentum_x[lane];
-    total.momentum[1] += sum.momentum_y[lane];
   }
-  return total;
+  /// Newton's law with local damping and the centred dashpot (METHODS section 4): never unstable.
+  Lanes solve(const Parameters& a, const Nodes& nodes, const std::vector<double>& dashpots)
+  {
+    Lanes pushed = force - damped(a, force, before), inverse = nodes.inverse_mass;
+    const Lanes dashpot = dashpots.empty() ? Lanes{} : nodes.of(dashpots);
+    if (bits(above(dashpot, Lanes{})) != 0)
+    {
+      pushed -= dashpot * before;
+      inverse = 1 / (nodes.mass + 0.5 * a.dt * dashpot);
+    }
+    after = chosen(nodes.active, before + a.dt * inverse * pushed, Lanes{});
+    return after;
+  }
+};
+
+/// Sums over nodes, lane by lane, so that they have one order.
+struct WorkSums
+{
+  Lanes work{}, damping{}, momentum[2]{};
+
+  /// One component of nodes of which `part` is counted; `impulse` is what the forces gave.
+  void add(const Parameters& a, const Lanes& part, const Nodes& nodes, const Motion& m, const Lanes& impulse,
+           Lanes& middle_momentum)
+  {
+    const Lanes middle = 0.5 * part * (m.before + m.after);
+    work += impulse * middle;
+    damping += a.dt * damped(a, m.force, m.before) * middle;
+    middle_momentum += 0.5 * part * (m.momentum + nodes.mass * m.after);
+  }
+  StepWork total() const
+  {
+    StepWork sum;
+    for (int k = 0; k < lanes; ++k)
+    {
+      sum.work += work[k];
+      sum.damping += damping[k];
+      sum.momentum[0] += momentum[0][k];
+      sum.momentum[1] += momentum[1][k];
+    }
+    return sum;
+  }
+};
+
+/// Part of nodes that counts in sums.
+Lanes counted(const Grid& g, const Nodes& nodes)
+{
+  return chosen(nodes.active, g.share.empty() ? Lanes{} + 1 : nodes.of(g.share), Lanes{});
+}
+
+/// Finds the nodes' velocities, and what the forces did where nothing comes after (StepWork). What neighbours
+/// exchange is no work of a force: the transfer between particles and grid holds it.
+StepWork solve_block(Grid& g, int block, const Parameters& a)
+{
+  WorkSums sum;
+  for (int k = block * block_nodes; k < (block + 1) * block_nodes; k += lanes)
+  {
+    const Nodes nodes(g, k, a.smallest_mass);
+    Lanes vx{}, vy{};
+    if (!nodes.empty())
+    {
+      Motion x(nodes, g.momentum_x, g.force_x), y(nodes, g.momentum_y, g.force_y);
+      vx = x.solve(a, nodes, g.dashpot_x);
+      vy = y.solve(a, nodes, g.dashpot_y);
+      const Lanes part = counted(g, nodes);
+      sum.add(a, part, nodes, x, nodes.mass * x.after - x.momentum, sum.momentum[0]);
+      sum.add(a, part, nodes, y, nodes.mass * y.after - y.momentum, sum.momentum[1]);
+    }
+    store_lanes(&g.velocity_x[k], vx);
+    store_lanes(&g.velocity_y[k], vy);
+  }
+  return sum.total();
+}
+
+/// What the forces did to nodes whose velocities were corrected (StepWork).
+StepWork corrected_work(const Grid& g, int block, const Parameters& a)
+{
+  WorkSums sum;
+  for (int k = block * block_nodes; k < (block + 1) * block_nodes; k += lanes)
+  {
+    const Nodes nodes(g, k, a.smallest_mass);
+    if (nodes.empty()) continue;
+    Motion x(nodes, g.momentum_x, g.force_x), y(nodes, g.momentum_y, g.force_y);
+    x.after = nodes.of(g.velocity_x);
+    y.after = nodes.of(g.velocity_y);
+    const Lanes part = counted(g, nodes);
+    sum.add(a, part, nodes, x, nodes.mass * nodes.of(g.change_x), sum.momentum[0]);
+    sum.add(a, part, nodes, y, nodes.mass * nodes.of(g.change_y), sum.momentum[1]);
+  }
+  return sum.total();
 }
 
 /// In the order of the blocks, whatever thread did which.
@@ -144,21 +188,13 @@ void solve_grid(Domain& domain, double dt)
   grid.smallest_mass = 1e-14 * cell_mass;
   const Parameters a{dt, grid.smallest_mass, domain.damping};
   std::vector<StepWork> works(blocks);
-  grid.for_each_block(
-      [&](int k)
-      {
-        if (grid.dashpot_x.empty())
-          solve_block<false>(grid, k, a);
-        else
-          solve_block<true>(grid, k, a);
-        if (!domain.consistent_inertia) works[k] = work_of_block(grid, k, a, false);
-      });
+  grid.for_each_block([&](int k) { works[k] = solve_block(grid, k, a); });
   if (domain.consistent_inertia)
   {
     for (const auto& boundary : domain.boundaries) boundary->apply_dashpots(domain, dt);
     correct_inertia(domain, dt);
     hold_resting_nodes(domain);
-    grid.for_each_block([&](int k) { works[k] = work_of_block(grid, k, a, true); });
+    grid.for_each_block([&](int k) { works[k] = corrected_work(grid, k, a); });
   }
   domain.ledger.step = sum_of(works, dt);
   if (domain.balance_wanted) domain.balance = balance_of(domain, cell_mass);
