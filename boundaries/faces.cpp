@@ -33,21 +33,13 @@ std::vector<Face> find_faces(const Domain& domain, Edge edge, double position, d
 
 namespace
 {
-/// What a face's dashpots bring to a node per unit of weight: the dashpots and the force of their far ends,
-/// as in FaceNode.
-Row brought(const Face& face, const std::array<double, 2>& far_end)
+/// Adds a vector (x, y) to the 16 nodes around a point, row by row, (x, y) after (x, y).
+void add(double* nodes, const Pairs& x_weight, const Row& y_weight, const double* vector)
 {
-  return Row{face.dashpot_x, face.dashpot_y, face.dashpot_x * far_end[0], face.dashpot_y * far_end[1]};
-}
-
-void add(Row (&nodes)[16], const Row& x_weight, const Row& y_weight, const Row& brought)
-{
-  for (int row = 0; row < 4; ++row)
-  {
-    const Row weight = y_weight[row] * x_weight;
+  const Pairs part = x_weight * everywhere(vector);
 #pragma GCC unroll 4
-    for (int column = 0; column < 4; ++column) nodes[4 * row + column] += weight[column] * brought;
-  }
+  for (int row = 0; row < 4; ++row)
+    store_pairs(nodes + 8 * row, load_pairs(nodes + 8 * row) + y_weight[row] * part);
 }
 } // namespace
 
@@ -86,21 +78,28 @@ void FaceNodes::find(const Domain& domain, const std::vector<Face>& faces,
     const Stencil x = cubic_stencil(domain.particles.x[at] + faces[k].offset_x - g.origin_x, g.spacing);
     const Stencil y = cubic_stencil(domain.particles.y[at] + faces[k].offset_y - g.origin_y, g.spacing);
     if (cells_.empty() || cells_.back().i != x.first || cells_.back().j != y.first)
-      cells_.push_back({x.first, y.first});
-    const auto end = far_end.empty() ? std::array<double, 2>{} : far_end[k];
-    add(cells_.back().at, x.weight, y.weight, brought(faces[k], end));
+      cells_.emplace_back(x.first, y.first);
+    Cell& cell = cells_.back();
+    const Pairs x_weight = twice(x.weight);
+    add(cell.dashpot, x_weight, y.weight, &faces[k].dashpot_x);
+    if (far_end.empty()) continue;
+    const double drive[] = {faces[k].dashpot_x * far_end[k][0], faces[k].dashpot_y * far_end[k][1]};
+    add(cell.drive, x_weight, y.weight, drive);
   }
   const auto same = [](const Cell& cell, const Slots& slots)
   { return cell.i == slots.i && cell.j == slots.j; };
   if (built_ != g.built || !std::equal(cells_.begin(), cells_.end(), slots_.begin(), slots_.end(), same))
     lay_out(g);
-  for (FaceNode& node : nodes_) store_row(&node.dashpot_x, Row{});
+  for (FaceNode& node : nodes_) node.dashpot_x = node.dashpot_y = node.drive_x = node.drive_y = 0;
   for (std::size_t c = 0; c < cells_.size(); ++c)
     for (int k = 0; k < 16; ++k)
     {
       if (slots_[c].at[k] < 0) continue;
-      double* const sum = &nodes_[slots_[c].at[k]].dashpot_x;
-      store_row(sum, load_row(sum) + cells_[c].at[k]);
+      FaceNode& node = nodes_[slots_[c].at[k]];
+      node.dashpot_x += cells_[c].dashpot[2 * k];
+      node.dashpot_y += cells_[c].dashpot[2 * k + 1];
+      node.drive_x += cells_[c].drive[2 * k];
+      node.drive_y += cells_[c].drive[2 * k + 1];
     }
 }
 

@@ -28,7 +28,7 @@ enum class Edge
 /// distance h/n. Impedances rho c are those of each particle's own material (eqs. 4, 5).
 std::vector<Face> find_faces(const Domain& domain, Edge edge, double position, double size);
 
-/// What of the faces' dashpots acts at one grid node; the last four are summed as a vector.
+/// What of the faces' dashpots acts at one grid node.
 struct FaceNode
 {
   int node, column, row;       ///< place in the node fields, column and row of the grid
@@ -52,8 +52,8 @@ private:
   /// Sums at the 16 nodes of one cell's stencil, of the faces that stand in that cell one after the other.
   struct Cell
   {
-    int i, j; ///< first node
-    Row at[16]{};
+    int i, j;                                      ///< first node
+    alignas(64) double dashpot[32]{}, drive[32]{}; ///< (x, y) after (x, y), as in FaceNode
   };
   /// Which of nodes_ are the 16 of a cell, -1 where there is no node.
   struct Slots

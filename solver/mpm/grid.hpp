@@ -3,6 +3,8 @@
 #include "solver/mpm/parallel.hpp"
 #include "solver/mpm/simd.hpp"
 
+#include <Eigen/Core>
+
 #include <array>
 #include <compare>
 #include <type_traits>
@@ -35,6 +37,9 @@ struct BlockIndex
 /// The 3 x 3 blocks around a block as places in Grid::blocks, -1 where there is none; row by row from below.
 using Neighbours = std::array<int, 9>;
 
+/// One number at each node; a row of a block is as aligned as vectors are.
+using NodeField = std::vector<double, Eigen::aligned_allocator<double>>;
+
 /// Sparse background grid: only blocks that hold material, and those that their stencils reach, exist.
 /// Node (i, j) stands at origin + spacing * (i, j); node fields are stored block by block, row by row.
 struct Grid
@@ -47,21 +52,21 @@ struct Grid
   std::vector<Neighbours> neighbours;
   int built = 0; ///< how often: places in the node fields hold until the next time
 
-  std::vector<double> mass;
-  std::vector<double> momentum_x, momentum_y;
-  std::vector<double> force_x, force_y;
-  std::vector<double> dashpot_x,
+  NodeField mass;
+  NodeField momentum_x, momentum_y;
+  NodeField force_x, force_y;
+  NodeField dashpot_x,
       dashpot_y; ///< of dashpots at the nodes, N s/m per m; empty without absorbing boundaries
-  std::vector<double> face_dashpot_x,
-      face_dashpot_y; ///< of dashpots on the base's face, which act on its velocity; empty
-                      ///< without them and with the lumped mass
-  std::vector<double> velocity_x, velocity_y; ///< updated velocity v*
-  std::vector<double> change_x,
-      change_y;                    ///< v* - P/m of the lumped mass, see correct_inertia; empty without it
-  std::vector<double> linked_mass; ///< mass of nodes that take part in that, kg per m
+  NodeField face_dashpot_x,
+      face_dashpot_y;               ///< of dashpots on the base's face, which act on its velocity; empty
+                                    ///< without them and with the lumped mass
+  NodeField velocity_x, velocity_y; ///< updated velocity v*
+  NodeField change_x,
+      change_y;          ///< v* - P/m of the lumped mass, see correct_inertia; empty without it
+  NodeField linked_mass; ///< mass of nodes that take part in that, kg per m
   /// Part of a node that belongs to the ground, for sums over nodes: 0 for images beyond a mirrored wall, 1/2
   /// on it, 1/4 where two walls meet; empty without walls.
-  std::vector<double> share;
+  NodeField share;
   double smallest_mass = 0; ///< nodes with less stay at rest, kg per m
 
   double inverse_spacing() const { return 1 / spacing; }
@@ -160,29 +165,34 @@ void for_each_run(const Grid& grid, const Neighbours& around, const Function& f)
   constexpr std::integral_constant<int, tile_margin> before{};
   constexpr std::integral_constant<int, block_cells> inside{};
   constexpr std::integral_constant<int, tile_margin + 1> after{};
-  for (int row = 0; row < tile_nodes; ++row)
+  constexpr int first_row[] = {block_cells - tile_margin, 0, 0},
+                end_row[] = {block_cells, block_cells, after};
+  for (int band = 0; band < 3; ++band)
   {
-    const int y = row - tile_margin;
-    const int band = y < 0 ? 0 : y < block_cells ? 1 : 2;
-    const int line = (y & (block_cells - 1)) * block_cells;
-    const int tile = row * tile_stride;
-    const int left = around[3 * band], middle = around[3 * band + 1], right = around[3 * band + 2];
+    // Rows that a block and the tile share, from the block's node `column` on.
+    const auto rows = [&](int block, int column, auto count, int place)
+    {
+      if (block < 0) return;
+      const int node = block * block_nodes + column;
+      const int tile = (block_cells * (band - 1) + tile_margin) * tile_stride + place;
+      for (int row = first_row[band]; row < end_row[band]; ++row)
+        f(node + row * block_cells, tile + row * tile_stride, count);
+    };
+    const int* const blocks = &around[3 * band];
     if (grid.wrapped)
     {
-      if (middle >= 0)
-        for (int column = 0; column < tile_nodes; ++column)
-          f(middle * block_nodes + line, tile + column, one);
+      for (int column = 0; column < tile_nodes; ++column) rows(blocks[1], 0, one, column);
       continue;
     }
-    if (left >= 0) f(left * block_nodes + line + block_cells - tile_margin, tile, before);
-    if (middle >= 0) f(middle * block_nodes + line, tile + tile_margin, inside);
-    if (right >= 0) f(right * block_nodes + line, tile + tile_margin + block_cells, after);
+    rows(blocks[0], block_cells - tile_margin, before, 0);
+    rows(blocks[1], 0, inside, tile_margin);
+    rows(blocks[2], 0, after, tile_margin + block_cells);
   }
 }
 
 /// Adds a tile, or one component of a tile of vectors, to the column of nodes of a wrapped grid.
 template <int components>
-void add_to_column(const Neighbours& around, const double* tile, std::vector<double>& field)
+void add_to_column(const Neighbours& around, const double* tile, NodeField& field)
 {
   for (int row = 0; row < tile_nodes; ++row)
   {
@@ -196,7 +206,7 @@ void add_to_column(const Neighbours& around, const double* tile, std::vector<dou
 }
 
 /// Adds a tile to the node field of the blocks around it.
-inline void add_tile(const Grid& grid, const Neighbours& around, const Tile& tile, std::vector<double>& field)
+inline void add_tile(const Grid& grid, const Neighbours& around, const Tile& tile, NodeField& field)
 {
   if (grid.wrapped) return add_to_column<1>(around, tile.value.data(), field);
   for_each_run(grid, around,
@@ -208,8 +218,8 @@ inline void add_tile(const Grid& grid, const Neighbours& around, const Tile& til
 }
 
 /// Adds a tile of vectors to the node fields of their components.
-inline void add_tile(const Grid& grid, const Neighbours& around, const PairTile& tile, std::vector<double>& x,
-                     std::vector<double>& y)
+inline void add_tile(const Grid& grid, const Neighbours& around, const PairTile& tile, NodeField& x,
+                     NodeField& y)
 {
   if (grid.wrapped)
   {
@@ -231,8 +241,7 @@ inline void add_tile(const Grid& grid, const Neighbours& around, const PairTile&
 }
 
 /// Copies a node field into a tile; nodes of blocks that do not exist are zero.
-inline void read_tile(const Grid& grid, const Neighbours& around, const std::vector<double>& field,
-                      Tile& tile)
+inline void read_tile(const Grid& grid, const Neighbours& around, const NodeField& field, Tile& tile)
 {
   tile.value.fill(0);
   for_each_run(grid, around,
@@ -245,8 +254,8 @@ inline void read_tile(const Grid& grid, const Neighbours& around, const std::vec
 }
 
 /// Copies the components of a vector field into a tile; nodes of blocks that do not exist are zero.
-inline void read_tile(const Grid& grid, const Neighbours& around, const std::vector<double>& x,
-                      const std::vector<double>& y, PairTile& tile)
+inline void read_tile(const Grid& grid, const Neighbours& around, const NodeField& x, const NodeField& y,
+                      PairTile& tile)
 {
   tile.value.fill(0);
   for_each_run(grid, around,

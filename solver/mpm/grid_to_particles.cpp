@@ -99,8 +99,8 @@ struct Extremes
 };
 
 /// Change of the nodes' velocity component over the step, v* - P/m.
-void read_change(const Grid& grid, const Neighbours& around, const std::vector<double>& momentum,
-                 const Tile& velocity, Tile& change)
+void read_change(const Grid& grid, const Neighbours& around, const NodeField& momentum, const Tile& velocity,
+                 Tile& change)
 {
   change.value.fill(0);
   for_each_run(grid, around,
@@ -119,8 +119,8 @@ void read_change(const Grid& grid, const Neighbours& around, const std::vector<d
 class Component
 {
 public:
-  Component(const Grid& grid, const Neighbours& around, const std::vector<double>& velocity,
-            const std::vector<double>& momentum, bool flip)
+  Component(const Grid& grid, const Neighbours& around, const NodeField& velocity, const NodeField& momentum,
+            bool flip)
   {
     read_tile(grid, around, velocity, velocity_);
     if (flip) read_change(grid, around, momentum, velocity_, change_);

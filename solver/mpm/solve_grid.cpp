@@ -27,7 +27,7 @@ struct Nodes
     inverse_mass = 1 / mass;
   }
   bool empty() const { return bits(active) == 0; }
-  Lanes of(const std::vector<double>& field) const { return load_lanes(&field[first]); }
+  Lanes of(const NodeField& field) const { return load_lanes(&field[first]); }
 };
 
 /// What damping takes from a force: beta |f| sign(v) (eq. 1).
@@ -42,12 +42,13 @@ struct Motion
 {
   Lanes momentum, force, before, after;
 
-  Motion(const Nodes& nodes, const std::vector<double>& momenta, const std::vector<double>& forces)
+  Motion(const Nodes& nodes, const NodeField& momenta, const NodeField& forces)
       : momentum(nodes.of(momenta)), force(nodes.of(forces)), before(nodes.inverse_mass * momentum)
   {
+    before += nodes.inverse_mass * (momentum - nodes.mass * before); // as exact as a division
   }
   /// Newton's law with local damping and the centred dashpot (METHODS section 4): never unstable.
-  Lanes solve(const Parameters& a, const Nodes& nodes, const std::vector<double>& dashpots)
+  Lanes solve(const Parameters& a, const Nodes& nodes, const NodeField& dashpots)
   {
     Lanes pushed = force - damped(a, force, before), inverse = nodes.inverse_mass;
     const Lanes dashpot = dashpots.empty() ? Lanes{} : nodes.of(dashpots);

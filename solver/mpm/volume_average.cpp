@@ -9,7 +9,7 @@ namespace
 /// Sums over the particles of one material in each cell, kept where the cell's lower left node is.
 struct CellSums
 {
-  std::vector<double> mass, change; ///< m and m tr L
+  NodeField mass, change; ///< m and m tr L
 };
 
 /// What the first pass found of every particle for the second.
