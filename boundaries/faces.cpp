@@ -39,7 +39,7 @@ void add(double* nodes, const Pairs& x_weight, const Row& y_weight, const double
   const Pairs part = x_weight * everywhere(vector);
 #pragma GCC unroll 4
   for (int row = 0; row < 4; ++row)
-    store_pairs(nodes + 8 * row, load_pairs(nodes + 8 * row) + y_weight[row] * part);
+    store(nodes + 8 * row, load_as<Pairs>(nodes + 8 * row) + y_weight[row] * part);
 }
 } // namespace
 

@@ -129,7 +129,7 @@ struct ImageSources
     const double stress = -inverse_slopes * domain.grid.inverse_spacing(), weight = inverse_weights;
     const double factors[8] = {stress, stress, stress, stress, weight, weight, weight, 0};
     static_assert(sizeof(ImageLoad) == sizeof factors);
-    const Pairs all = load_pairs(factors);
+    const Pairs all = load_as<Pairs>(factors);
     const int last = static_cast<int>(images.list.size()) - 1;
     for (int k = 0; k < count; ++k)
     {
@@ -138,7 +138,7 @@ struct ImageSources
       __builtin_prefetch(&images.loads[later.load]); // neighbours in the list need not be here
       x[k] = domain.particles.x[image.place] + image.offset.x();
       y[k] = domain.particles.y[image.place] + image.offset.y();
-      store_pairs(load[k].stress_x, all * load_pairs(images.loads[image.load].stress_x));
+      store(load[k].stress_x, all * load_as<Pairs>(images.loads[image.load].stress_x));
     }
   }
 };
@@ -174,10 +174,10 @@ public:
       const int node = node_ + j * tile_stride;
       double* at = &force.value[2 * node];
       if constexpr (inertia)
-        store_pairs(at, load_pairs(at) +
-                            (force_[j] - twice(mass_[j]) * everywhere(a[node / tile_stride].data())));
+        store(at,
+              load_as<Pairs>(at) + (force_[j] - twice(mass_[j]) * everywhere(a[node / tile_stride].data())));
       else
-        store_pairs(at, load_pairs(at) + force_[j]);
+        store(at, load_as<Pairs>(at) + force_[j]);
     }
   }
 

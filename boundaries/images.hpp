@@ -14,8 +14,8 @@ struct alignas(64) ImageLoad
 {
   double stress_x[2]{}, stress_y[2]{}; ///< V sigma column by column, N m per m; not symmetric behind a
                                        ///< no-slip wall: S sigma M V
-  double weight[2]{}; ///< S m g, N per m
-  double mass = 0;    ///< of the ghost row that it stands for, kg per m; 0 when it has no dynamics
+  double weight[2]{};                  ///< S m g, N per m
+  double mass = 0; ///< of the ghost row that it stands for, kg per m; 0 when it has no dynamics
   double unused = 0;
 };
 

@@ -11,28 +11,33 @@ int filled(int count)
   return (count + lanes - 1) / lanes * lanes;
 }
 
-/// Cell and fraction of it in which each of `count` positions stands.
-void locate(const double* __restrict position, double from, double inverse, int count,
-            double* __restrict cell, double* __restrict fraction)
+/// Where some points stand in one direction: the cell, and the fraction of it.
+struct Located
 {
-  for (int k = 0; k < count; ++k)
+  Lanes cell, fraction;
+
+  Located(const Lanes& position, double from, double inverse)
   {
-    const double local = (position[k] - from) * inverse;
-    cell[k] = std::floor(local);
-    fraction[k] = local - cell[k];
+    const Lanes local = (position - from) * inverse;
+    cell = floor_of(local);
+    fraction = local - cell;
   }
-}
+};
 } // namespace
 
 void ChunkPlaces::find(const TileStencils& tile, const double* __restrict x, const double* __restrict y,
                        int count)
 {
   const double inverse = 1 / tile.spacing();
-  alignas(64) double column[chunk_size], row[chunk_size];
-  locate(x, tile.from_x(), inverse, count, column, x_fraction);
-  locate(y, tile.from_y(), inverse, count, row, y_fraction);
-  for (int k = 0; k < count; ++k)
-    node[k] = TileStencils::place(static_cast<int>(column[k]) - 1, static_cast<int>(row[k]) - 1);
+  constexpr int first = TileStencils::place(-1, -1);
+  for (int k = 0; k < count; k += lanes)
+  {
+    const Located column(load_first(x + k, count - k), tile.from_x(), inverse);
+    const Located row(load_first(y + k, count - k), tile.from_y(), inverse);
+    store(&x_fraction[k], column.fraction);
+    store(&y_fraction[k], row.fraction);
+    store_integers(&node[k], tile_stride * row.cell + column.cell + first);
+  }
   for (int k = count; k < filled(count); ++k)
   {
     x_fraction[k] = x_fraction[count - 1];
@@ -62,9 +67,9 @@ void RowSplines::find(const double* fraction, int count)
   for (int k = 0; k < count; k += 2)
   {
     const Spline<Pairs> s = cubic_spline(fraction[k], fraction[k + 1]);
-    store_pairs(weight_[k], s.weight);
-    store_pairs(slope_[k], s.slope);
-    store_pairs(moment_[k], s.moment);
+    store(weight_[k], s.weight);
+    store(slope_[k], s.slope);
+    store(moment_[k], s.moment);
   }
 }
 } // namespace mpm

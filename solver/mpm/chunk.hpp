@@ -22,7 +22,7 @@ public:
   Stencil y(double position) const { return cubic_stencil(position - from_y_, spacing_); }
   /// Place of the first node of a stencil in the tile.
   static int first_node(const Stencil& x, const Stencil& y) { return place(x.first, y.first); }
-  static int place(int i, int j) { return (j + tile_margin) * tile_stride + i + tile_margin; }
+  static constexpr int place(int i, int j) { return (j + tile_margin) * tile_stride + i + tile_margin; }
 
   double spacing() const { return spacing_; }
   double from_x() const { return from_x_; }
@@ -67,7 +67,7 @@ public:
   Spline<Row> operator[](int k) const
   {
     if constexpr (two_rows_a_register)
-      return {load_row(weight_[k]), load_row(slope_[k]), load_row(moment_[k])};
+      return {load_as<Row>(weight_[k]), load_as<Row>(slope_[k]), load_as<Row>(moment_[k])};
     else
       return cubic_spline(fraction_[k]);
   }

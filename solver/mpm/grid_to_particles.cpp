@@ -63,16 +63,16 @@ struct Reading
 #pragma GCC unroll 4
     for (int i = 0; i < 4; ++i)
     {
-      value += load_lanes(&s.x.weight[i][k]) * node[i];
-      slope += load_lanes(&s.x.slope[i][k]) * node[i];
-      moment += load_lanes(&s.x.moment[i][k]) * node[i];
+      value += load_as<Lanes>(&s.x.weight[i][k]) * node[i];
+      slope += load_as<Lanes>(&s.x.slope[i][k]) * node[i];
+      moment += load_as<Lanes>(&s.x.moment[i][k]) * node[i];
     }
-    const Lanes weight = load_lanes(&s.y.weight[j][k]);
+    const Lanes weight = load_as<Lanes>(&s.y.weight[j][k]);
     sum.value += weight * value;
     sum.slope_x += weight * slope;
     sum.moment_x += weight * moment;
-    sum.slope_y += load_lanes(&s.y.slope[j][k]) * value;
-    sum.moment_y += load_lanes(&s.y.moment[j][k]) * value;
+    sum.slope_y += load_as<Lanes>(&s.y.slope[j][k]) * value;
+    sum.moment_y += load_as<Lanes>(&s.y.moment[j][k]) * value;
   }
   return sum;
 }
@@ -138,18 +138,18 @@ public:
     const Reading r = read(velocity_, cells, s, k);
     greatest.take(r);
     const Lanes v = without_weights(r.value);
-    store_lanes(x, load_lanes(x, n) + dt * v, n);
+    store_first(x, load_first(x, n) + dt * v, n);
     if (blend > 0)
     {
       const Lanes change = without_weights(read(change_, cells, s, k).value);
-      store_lanes(velocity, v + blend * (load_lanes(velocity, n) + change - v), n);
+      store_first(velocity, v + blend * (load_first(velocity, n) + change - v), n);
     }
     else
-      store_lanes(velocity, v, n);
-    store_lanes(affine_x, affine * r.moment_x, n);
-    store_lanes(affine_y, affine * r.moment_y, n);
-    store_lanes(gradient_x, slope * r.slope_x);
-    store_lanes(gradient_y, slope * r.slope_y);
+      store_first(velocity, v, n);
+    store_first(affine_x, affine * r.moment_x, n);
+    store_first(affine_y, affine * r.moment_y, n);
+    store(gradient_x, slope * r.slope_x);
+    store(gradient_y, slope * r.slope_y);
   }
 
 private:

@@ -73,9 +73,9 @@ public:
       const int node = node_ + j * tile_stride;
       double *mass = &tiles.mass.value[node], *momentum = &tiles.momentum.value[2 * node],
              *force = &tiles.force.value[2 * node];
-      store_row(mass, load_row(mass) + mass_[j]);
-      store_pairs(momentum, load_pairs(momentum) + momentum_[j]);
-      store_pairs(force, load_pairs(force) + force_[j]);
+      store(mass, load_as<Row>(mass) + mass_[j]);
+      store(momentum, load_as<Pairs>(momentum) + momentum_[j]);
+      store(force, load_as<Pairs>(force) + force_[j]);
     }
   }
 

@@ -3,6 +3,7 @@
 // of particles.
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <string_view>
 #ifdef __AVX__
@@ -14,16 +15,18 @@ namespace mpm
 /// One number at each of four neighbouring nodes of a row.
 typedef double Row __attribute__((vector_size(32)));
 
-inline Row load_row(const double* from)
+/// The vector whose numbers stand one after the other from `from` on.
+template <class Vector>
+Vector load_as(const double* from)
 {
-  Row row;
-  std::memcpy(&row, from, sizeof row);
-  return row;
+  Vector vector;
+  std::memcpy(&vector, from, sizeof vector);
+  return vector;
 }
-
-inline void store_row(double* to, const Row& row)
+template <class Vector>
+void store(double* to, const Vector& vector)
 {
-  std::memcpy(to, &row, sizeof row);
+  std::memcpy(to, &vector, sizeof vector);
 }
 
 /// The instructions that this build uses; results are bit-identical for any number of threads on one path.
@@ -53,16 +56,6 @@ inline constexpr bool two_rows_a_register =
 /// A vector (x, y) at each of four neighbouring nodes of a row.
 typedef double Pairs __attribute__((vector_size(64)));
 
-inline Pairs load_pairs(const double* from)
-{
-  Pairs pairs;
-  std::memcpy(&pairs, from, sizeof pairs);
-  return pairs;
-}
-inline void store_pairs(double* to, const Pairs& pairs)
-{
-  std::memcpy(to, &pairs, sizeof pairs);
-}
 /// Each of the four numbers of a row for both components.
 inline Pairs twice(const Row& row)
 {
@@ -98,6 +91,15 @@ using Lanes = Pairs;
 /// Some of the lanes.
 using Selection = __mmask8;
 
+/// The first `count` lanes, zeros in the others.
+inline Lanes load_first(const double* from, int count)
+{
+  return _mm512_maskz_loadu_pd(_bzhi_u32(0xFF, count), from);
+}
+inline void store_first(double* to, const Lanes& values, int count)
+{
+  _mm512_mask_storeu_pd(to, _bzhi_u32(0xFF, count), values);
+}
 /// Lanes whose integer is the wanted one.
 inline Selection equal(const int* values, int wanted)
 {
@@ -144,22 +146,13 @@ struct Pairs
   friend Pairs operator*(double factor, const Pairs& a) { return {factor * a.left, factor * a.right}; }
 };
 
-inline Pairs load_pairs(const double* from)
-{
-  return {load_row(from), load_row(from + 4)};
-}
-inline void store_pairs(double* to, const Pairs& pairs)
-{
-  store_row(to, pairs.left);
-  store_row(to + 4, pairs.right);
-}
 inline Pairs twice(const Row& row)
 {
   return {__builtin_shufflevector(row, row, 0, 0, 1, 1), __builtin_shufflevector(row, row, 2, 2, 3, 3)};
 }
 inline Pairs both(const double* row)
 {
-  return {load_row(row), load_row(row)};
+  return {load_as<Row>(row), load_as<Row>(row)};
 }
 inline Pairs both(double first, double second)
 {
@@ -174,6 +167,24 @@ inline Pairs everywhere(const double* vector)
 using Lanes = Row;
 typedef long long Selection __attribute__((vector_size(32)));
 
+inline Lanes load_first(const double* from, int count)
+{
+  if (count >= 4) return load_as<Lanes>(from);
+#ifdef __AVX__
+  return _mm256_maskload_pd(from, reinterpret_cast<__m256i>(Selection{0, 1, 2, 3} < count));
+#endif
+  Lanes values{};
+  for (int k = 0; k < count; ++k) values[k] = from[k];
+  return values;
+}
+inline void store_first(double* to, const Lanes& values, int count)
+{
+  if (count >= 4) return store(to, values);
+#ifdef __AVX__
+  return _mm256_maskstore_pd(to, reinterpret_cast<__m256i>(Selection{0, 1, 2, 3} < count), values);
+#endif
+  for (int k = 0; k < count; ++k) to[k] = values[k];
+}
 inline Selection equal(const int* values, int wanted)
 {
   return Selection{values[0], values[1], values[2], values[3]} == wanted;
@@ -209,28 +220,23 @@ inline Lanes greatest_of(const Lanes& so_far, const Lanes& value)
 
 inline constexpr int lanes = sizeof(Lanes) / sizeof(double);
 
-inline Lanes load_lanes(const double* from)
+inline Lanes floor_of(const Lanes& values)
 {
-  Lanes values;
-  std::memcpy(&values, from, sizeof values);
-  return values;
+#if defined(__AVX512F__)
+  return _mm512_floor_pd(values);
+#elif defined(__AVX__)
+  return _mm256_floor_pd(values);
+#endif
+  Lanes result;
+  for (int k = 0; k < lanes; ++k) result[k] = std::floor(values[k]);
+  return result;
 }
-inline void store_lanes(double* to, const Lanes& values)
+/// Stores whole numbers as integers.
+inline void store_integers(int* to, const Lanes& values)
 {
-  std::memcpy(to, &values, sizeof values);
-}
-/// The first `count` lanes, zeros in the others.
-inline Lanes load_lanes(const double* from, int count)
-{
-  if (count >= lanes) return load_lanes(from);
-  Lanes values{};
-  for (int k = 0; k < count; ++k) values[k] = from[k];
-  return values;
-}
-inline void store_lanes(double* to, const Lanes& values, int count)
-{
-  if (count >= lanes) return store_lanes(to, values);
-  for (int k = 0; k < count; ++k) to[k] = values[k];
+  typedef int Integers __attribute__((vector_size(lanes * sizeof(int))));
+  const Integers integers = __builtin_convertvector(values, Integers);
+  std::memcpy(to, &integers, sizeof integers);
 }
 /// The greatest lane that is above zero.
 inline double greatest_of(const Lanes& of)

@@ -21,13 +21,13 @@ struct Nodes
 
   Nodes(const Grid& g, int node, double smallest_mass) : first(node)
   {
-    const Lanes all = load_lanes(&g.mass[node]);
+    const Lanes all = load_as<Lanes>(&g.mass[node]);
     active = above(all, Lanes{} + smallest_mass);
     mass = chosen(active, all, Lanes{} + 1);
     inverse_mass = 1 / mass;
   }
   bool empty() const { return bits(active) == 0; }
-  Lanes of(const NodeField& field) const { return load_lanes(&field[first]); }
+  Lanes of(const NodeField& field) const { return load_as<Lanes>(&field[first]); }
 };
 
 /// What damping takes from a force: beta |f| sign(v) (eq. 1).
@@ -114,8 +114,8 @@ StepWork solve_block(Grid& g, int block, const Parameters& a)
       sum.add(a, part, nodes, x, nodes.mass * x.after - x.momentum, sum.momentum[0]);
       sum.add(a, part, nodes, y, nodes.mass * y.after - y.momentum, sum.momentum[1]);
     }
-    store_lanes(&g.velocity_x[k], vx);
-    store_lanes(&g.velocity_y[k], vy);
+    store(&g.velocity_x[k], vx);
+    store(&g.velocity_y[k], vy);
   }
   return sum.total();
 }

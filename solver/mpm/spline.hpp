@@ -35,7 +35,7 @@ template <class Value, class Pick>
 /// Of all four nodes.
 [[gnu::always_inline]] inline Spline<Row> cubic_spline(double f)
 {
-  return cubic_spline(f - Row{}, [](const double* all) { return load_row(all); });
+  return cubic_spline(f - Row{}, [](const double* all) { return load_as<Row>(all); });
 }
 
 /// Of all four nodes around each of two points.
