@@ -132,7 +132,7 @@ inline Lanes replaced(const Lanes& values, Selection where, const double* by)
 /// A vector (x, y) at each of four neighbouring nodes of a row.
 struct Pairs
 {
-  Row left{}, right{};
+  Row left, right;
 
   Pairs& operator+=(const Pairs& other)
   {
@@ -146,6 +146,16 @@ struct Pairs
   friend Pairs operator*(double factor, const Pairs& a) { return {factor * a.left, factor * a.right}; }
 };
 
+template <>
+inline Pairs load_as<Pairs>(const double* from)
+{
+  return {load_as<Row>(from), load_as<Row>(from + 4)};
+}
+inline void store(double* to, const Pairs& pairs)
+{
+  store(to, pairs.left);
+  store(to + 4, pairs.right);
+}
 inline Pairs twice(const Row& row)
 {
   return {__builtin_shufflevector(row, row, 0, 0, 1, 1), __builtin_shufflevector(row, row, 2, 2, 3, 3)};
