@@ -115,30 +115,46 @@ void read_change(const Grid& grid, const Neighbours& around, const NodeField& mo
                });
 }
 
+/// How particles take over what the grid tells them.
+struct Transfer
+{
+  double dt, spacing;
+  double blend; ///< share of FLIP
+};
+
+/// One component of what particles carry, and of the velocity gradient of a chunk of them.
+struct Carried
+{
+  std::vector<double>&position, &velocity, &affine_x, &affine_y;
+  std::array<double, chunk_size>&gradient_x, &gradient_y;
+};
+
 /// One component of what the grid tells the particles of a block.
 class Component
 {
 public:
   Component(const Grid& grid, const Neighbours& around, const NodeField& velocity, const NodeField& momentum,
-            bool flip)
+            const Transfer& transfer)
+      : transfer_(transfer)
   {
     read_tile(grid, around, velocity, velocity_);
-    if (flip) read_change(grid, around, momentum, velocity_, change_);
+    if (transfer.blend > 0) read_change(grid, around, momentum, velocity_, change_);
   }
 
-  /// v = sum w v*, C = D^-1 sum w v* (x_i - x)^T (eq. 3), L = sum v* grad w of the n particles from k of a
-  /// chunk on; moves them with v. With a share `blend` of FLIP particles take v + blend (v_p + sum w (v* -
-  /// P/m) - v) (METHODS section 1).
-  [[gnu::always_inline]] inline void apply(const Cells& cells, const Splines& s, int k, int n, double blend,
-                                           double spacing, double dt, double* x, double* velocity,
-                                           double* affine_x, double* affine_y, double* gradient_x,
-                                           double* gradient_y, Extremes& greatest) const
+  /// v = sum w v*, C = D^-1 sum w v* (x_i - x)^T (eq. 3), L = sum v* grad w of n particles, k the first of
+  /// them in the chunk and q in all; moves them with v. With a share of FLIP, `blend`, particles take v +
+  /// blend (v_p + sum w (v* - P/m) - v) (METHODS section 1).
+  [[gnu::always_inline]] inline void apply(const Cells& cells, const Splines& s, int k, int q, int n,
+                                           const Carried& particles, Extremes& greatest) const
   {
+    const auto [dt, spacing, blend] = transfer_;
     const double affine = 3 * inverse_weights / spacing, slope = inverse_slopes / spacing; // D = h^2 / 3
     const Reading r = read(velocity_, cells, s, k);
     greatest.take(r);
     const Lanes v = without_weights(r.value);
+    double* const x = &particles.position[q];
     store_first(x, load_first(x, n) + dt * v, n);
+    double* const velocity = &particles.velocity[q];
     if (blend > 0)
     {
       const Lanes change = without_weights(read(change_, cells, s, k).value);
@@ -146,13 +162,14 @@ public:
     }
     else
       store_first(velocity, v, n);
-    store_first(affine_x, affine * r.moment_x, n);
-    store_first(affine_y, affine * r.moment_y, n);
-    store(gradient_x, slope * r.slope_x);
-    store(gradient_y, slope * r.slope_y);
+    store_first(&particles.affine_x[q], affine * r.moment_x, n);
+    store_first(&particles.affine_y[q], affine * r.moment_y, n);
+    store(&particles.gradient_x[k], slope * r.slope_x);
+    store(&particles.gradient_y[k], slope * r.slope_y);
   }
 
 private:
+  Transfer transfer_;
   Tile velocity_, change_;
 };
 
@@ -160,14 +177,16 @@ private:
 double update_home(Domain& domain, const Home& home, double dt)
 {
   const Grid& grid = domain.grid;
-  const double blend = domain.flip_blend, h = grid.spacing;
-  const Component x(grid, home.around, grid.velocity_x, grid.momentum_x, blend > 0);
-  const Component y(grid, home.around, grid.velocity_y, grid.momentum_y, blend > 0);
+  const Transfer transfer{dt, grid.spacing, domain.flip_blend};
+  const Component x(grid, home.around, grid.velocity_x, grid.momentum_x, transfer);
+  const Component y(grid, home.around, grid.velocity_y, grid.momentum_y, transfer);
   const TileStencils tile(grid, home.block);
   ChunkPlaces places;
   Splines splines;
   VelocityGradients L;
   Particles& p = domain.particles;
+  const Carried of_x{p.x, p.velocity_x, p.affine_xx, p.affine_xy, L.xx, L.xy};
+  const Carried of_y{p.y, p.velocity_y, p.affine_yx, p.affine_yy, L.yx, L.yy};
   Extremes greatest;
   for_each_chunk(home,
                  [&](int material, int begin, int count)
@@ -187,14 +206,12 @@ double update_home(Domain& domain, const Home& home, double dt)
                      const int q = begin + k, n = std::min(lanes, count - k);
                      for (int quarter = (k & 7) / 2; quarter < ((k & 7) + lanes) / 2; ++quarter)
                        ahead.fetch(k & ~7, quarter);
-                     x.apply(cells, splines, k, n, blend, h, dt, &p.x[q], &p.velocity_x[q], &p.affine_xx[q],
-                             &p.affine_xy[q], &L.xx[k], &L.xy[k], greatest);
-                     y.apply(cells, splines, k, n, blend, h, dt, &p.y[q], &p.velocity_y[q], &p.affine_yx[q],
-                             &p.affine_yy[q], &L.yx[k], &L.yy[k], greatest);
+                     x.apply(cells, splines, k, q, n, of_x, greatest);
+                     y.apply(cells, splines, k, q, n, of_y, greatest);
                    }
                    update_particles(domain, material, begin, count, L, dt);
                  });
-  const double courant = dt / h;
+  const double courant = dt / grid.spacing;
   if (greatest_of(greatest.gradient) * inverse_slopes * courant > greatest_gradient)
     return std::numeric_limits<double>::infinity();
   return greatest_of(greatest.velocity) * inverse_weights * courant;
