@@ -88,9 +88,12 @@ void Images::sort(const Domain& domain)
 
 void Images::bind(const Domain& domain)
 {
-  for (Image& image : list) image.place = domain.place[image.parent];
-  const auto rank = [](const Image& image) { return std::tie(image.block, image.place, image.load); };
+  const auto rank = [&](const Image& image)
+  { return std::tuple(image.block, domain.place[image.parent], image.load); };
   std::sort(list.begin(), list.end(), [&](const Image& a, const Image& b) { return rank(a) < rank(b); });
+  bound_.clear();
+  for (const Image& image : list)
+    bound_.push_back({image.offset.x(), image.offset.y(), domain.place[image.parent], image.load});
   homes_.clear();
   work_ = {};
   for (int k = 0; k < static_cast<int>(list.size()); ++k)
@@ -124,21 +127,23 @@ struct ImageSources
   double x[chunk_size], y[chunk_size];
   ImageLoad load[chunk_size];
 
-  void take(const Images& images, const Domain& domain, int begin, int count)
+  /// Takes the first `count` of the images.
+  void take(std::span<const BoundImage> images, const std::vector<ImageLoad>& loads, const Domain& domain,
+            int count)
   {
     const double stress = -inverse_slopes * domain.grid.inverse_spacing(), weight = inverse_weights;
     const double factors[8] = {stress, stress, stress, stress, weight, weight, weight, 0};
     static_assert(sizeof(ImageLoad) == sizeof factors);
     const Pairs all = load_as<Pairs>(factors);
-    const int last = static_cast<int>(images.list.size()) - 1;
+    const int last = static_cast<int>(images.size()) - 1;
     for (int k = 0; k < count; ++k)
     {
-      const Image& image = images.list[begin + k];
-      const Image& later = images.list[std::min(begin + k + 16, last)];
-      __builtin_prefetch(&images.loads[later.load]); // neighbours in the list need not be here
-      x[k] = domain.particles.x[image.place] + image.offset.x();
-      y[k] = domain.particles.y[image.place] + image.offset.y();
-      store(load[k].stress_x, all * load_as<Pairs>(images.loads[image.load].stress_x));
+      const BoundImage& image = images[k];
+      const BoundImage& later = images[std::min(k + 16, last)];
+      __builtin_prefetch(&loads[later.load]); // neighbours in the list need not be here
+      x[k] = domain.particles.x[image.parent] + image.offset_x;
+      y[k] = domain.particles.y[image.parent] + image.offset_y;
+      store(load[k].stress_x, all * load_as<Pairs>(loads[image.load].stress_x));
     }
   }
 };
@@ -199,7 +204,7 @@ void Images::scatter(const Domain& domain, ImageHome& home, const Rows& rows) co
   for (int begin = home.begin; begin < home.end; begin += chunk_size)
   {
     const int count = std::min(chunk_size, home.end - begin);
-    from.take(*this, domain, begin, count);
+    from.take(std::span(bound_).subspan(begin), loads, domain, count);
     stencils.find(tile, from.x, from.y, count);
     for (int k = 0; k < count;)
     {

@@ -27,7 +27,14 @@ struct Image
   Eigen::Vector2d offset = Eigen::Vector2d::Zero(); ///< from the parent, m
   BlockIndex block{};                               ///< where it stood at the last sort
   int load = 0;                                     ///< which of the loads it brings
-  int place = 0;                                    ///< where its parent stands among the particles now
+};
+
+/// What a step needs of an image.
+struct BoundImage
+{
+  double offset_x, offset_y; ///< as Image::offset
+  int parent;                ///< where it stands among the particles
+  int load;                  ///< as Image::load
 };
 
 /// Images and the loads that they bring, grouped by grid block.
@@ -73,6 +80,7 @@ private:
   void scatter(const Domain& domain, ImageHome& home, const Rows& rows) const;
   /// Adds a home's tile to the nodes that hold real mass, and returns the sum.
   static std::array<double, 2> gather(Grid& grid, const ImageHome& home);
+  std::vector<BoundImage> bound_; ///< as the list
   std::vector<ImageHome> homes_;
   parallel::Group work_; ///< homes and what they cost
 };
