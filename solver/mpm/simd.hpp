@@ -230,6 +230,7 @@ inline Lanes greatest_of(const Lanes& so_far, const Lanes& value)
 
 inline constexpr int lanes = sizeof(Lanes) / sizeof(double);
 
+/// The greatest whole numbers that are not above.
 inline Lanes floor_of(const Lanes& values)
 {
 #if defined(__AVX512F__)

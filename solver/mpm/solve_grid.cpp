@@ -31,7 +31,7 @@ struct Nodes
 };
 
 /// What damping takes from a force: beta |f| sign(v) (eq. 1).
-inline Lanes damped(const Parameters& a, const Lanes& force, const Lanes& velocity)
+inline Lanes taken_by_damping(const Parameters& a, const Lanes& force, const Lanes& velocity)
 {
   const Lanes most = a.damping * chosen(above(force, Lanes{}), force, -force);
   return chosen(above(velocity, Lanes{}), most, chosen(above(Lanes{}, velocity), -most, Lanes{}));
@@ -50,7 +50,7 @@ struct Motion
   /// Newton's law with local damping and the centred dashpot (METHODS section 4): never unstable.
   Lanes solve(const Parameters& a, const Nodes& nodes, const NodeField& dashpots)
   {
-    Lanes pushed = force - damped(a, force, before), inverse = nodes.inverse_mass;
+    Lanes pushed = force - taken_by_damping(a, force, before), inverse = nodes.inverse_mass;
     const Lanes dashpot = dashpots.empty() ? Lanes{} : nodes.of(dashpots);
     if (bits(above(dashpot, Lanes{})) != 0)
     {
@@ -67,14 +67,14 @@ struct WorkSums
 {
   Lanes work{}, damping{}, momentum[2]{};
 
-  /// One component of nodes of which `part` is counted; `impulse` is what the forces gave.
-  void add(const Parameters& a, const Lanes& part, const Nodes& nodes, const Motion& m, const Lanes& impulse,
-           Lanes& middle_momentum)
+  /// One component, 0 or 1, of nodes of which `part` is counted; `impulse` is what the forces gave.
+  void add(int component, const Parameters& a, const Lanes& part, const Nodes& nodes, const Motion& m,
+           const Lanes& impulse)
   {
     const Lanes middle = 0.5 * part * (m.before + m.after);
     work += impulse * middle;
-    damping += a.dt * damped(a, m.force, m.before) * middle;
-    middle_momentum += 0.5 * part * (m.momentum + nodes.mass * m.after);
+    damping += a.dt * taken_by_damping(a, m.force, m.before) * middle;
+    momentum[component] += 0.5 * part * (m.momentum + nodes.mass * m.after);
   }
   StepWork total() const
   {
@@ -96,9 +96,8 @@ Lanes counted(const Grid& g, const Nodes& nodes)
   return chosen(nodes.active, g.share.empty() ? Lanes{} + 1 : nodes.of(g.share), Lanes{});
 }
 
-/// Finds the nodes' velocities, and what the forces did where nothing comes after (StepWork). What neighbours
-/// exchange is no work of a force: the transfer between particles and grid holds it.
-StepWork solve_block(Grid& g, int block, const Parameters& a)
+/// Finds the nodes' velocities and, where nothing corrects them after, what the forces did (StepWork).
+StepWork solve_block(Grid& g, int block, const Parameters& a, bool final)
 {
   WorkSums sum;
   for (int k = block * block_nodes; k < (block + 1) * block_nodes; k += lanes)
@@ -110,9 +109,12 @@ StepWork solve_block(Grid& g, int block, const Parameters& a)
       Motion x(nodes, g.momentum_x, g.force_x), y(nodes, g.momentum_y, g.force_y);
       vx = x.solve(a, nodes, g.dashpot_x);
       vy = y.solve(a, nodes, g.dashpot_y);
-      const Lanes part = counted(g, nodes);
-      sum.add(a, part, nodes, x, nodes.mass * x.after - x.momentum, sum.momentum[0]);
-      sum.add(a, part, nodes, y, nodes.mass * y.after - y.momentum, sum.momentum[1]);
+      if (final)
+      {
+        const Lanes part = counted(g, nodes);
+        sum.add(0, a, part, nodes, x, nodes.mass * x.after - x.momentum);
+        sum.add(1, a, part, nodes, y, nodes.mass * y.after - y.momentum);
+      }
     }
     store(&g.velocity_x[k], vx);
     store(&g.velocity_y[k], vy);
@@ -120,7 +122,8 @@ StepWork solve_block(Grid& g, int block, const Parameters& a)
   return sum.total();
 }
 
-/// What the forces did to nodes whose velocities were corrected (StepWork).
+/// What the forces did to nodes whose velocities were corrected (StepWork). What neighbours exchange is no
+/// work of a force: the transfer between particles and grid holds it.
 StepWork corrected_work(const Grid& g, int block, const Parameters& a)
 {
   WorkSums sum;
@@ -132,8 +135,8 @@ StepWork corrected_work(const Grid& g, int block, const Parameters& a)
     x.after = nodes.of(g.velocity_x);
     y.after = nodes.of(g.velocity_y);
     const Lanes part = counted(g, nodes);
-    sum.add(a, part, nodes, x, nodes.mass * nodes.of(g.change_x), sum.momentum[0]);
-    sum.add(a, part, nodes, y, nodes.mass * nodes.of(g.change_y), sum.momentum[1]);
+    sum.add(0, a, part, nodes, x, nodes.mass * nodes.of(g.change_x));
+    sum.add(1, a, part, nodes, y, nodes.mass * nodes.of(g.change_y));
   }
   return sum.total();
 }
@@ -189,7 +192,7 @@ void solve_grid(Domain& domain, double dt)
   grid.smallest_mass = 1e-14 * cell_mass;
   const Parameters a{dt, grid.smallest_mass, domain.damping};
   std::vector<StepWork> works(blocks);
-  grid.for_each_block([&](int k) { works[k] = solve_block(grid, k, a); });
+  grid.for_each_block([&](int k) { works[k] = solve_block(grid, k, a, !domain.consistent_inertia); });
   if (domain.consistent_inertia)
   {
     for (const auto& boundary : domain.boundaries) boundary->apply_dashpots(domain, dt);
