@@ -2,10 +2,9 @@
 
 #include "io/case_sections.hpp"
 #include "io/error.hpp"
+#include "io/input_file.hpp"
 
 #include <algorithm>
-#include <fstream>
-#include <sstream>
 
 namespace mpm
 {
@@ -15,11 +14,11 @@ constexpr std::string_view schema = "seismpm-case/1";
 
 std::string read_file(const std::filesystem::path& path)
 {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  if (std::filesystem::is_directory(path) || !file || (file.peek() != EOF && !(text << file.rdbuf())))
-    throw Error(exit_code::input_missing, path.string() + ": cannot be read; give the path of a case file");
-  return text.str();
+  InputText input = read_input(path, most_of_case);
+  if (!input.problem.empty())
+    throw Error(exit_code::input_missing,
+                path.string() + ": " + input.problem + "; give the path of a case file");
+  return std::move(input.text);
 }
 
 void check_schema(Section& root)

@@ -1,8 +1,9 @@
 #include "io/case_sections.hpp"
+#include "io/input_file.hpp"
 
 #include <algorithm>
 #include <charconv>
-#include <fstream>
+#include <sstream>
 
 namespace mpm
 {
@@ -67,11 +68,13 @@ Polyline read_profile(const YamlNode& node, const std::filesystem::path& folder,
   const std::string name = read_text(node, problems);
   if (name.empty()) return line;
   const std::filesystem::path path = (folder / name).lexically_normal();
-  std::ifstream file(path);
-  if (!file || std::filesystem::is_directory(path))
+  InputText input = read_input(path, most_of_surface);
+  if (!input.problem.empty())
     return problems.add_missing(node.place, node.path,
-                                path.string() + " cannot be read; paths are relative to the case file"),
+                                path.string() + ": " + input.problem +
+                                    "; paths are relative to the case file"),
            line;
+  std::istringstream file(std::move(input.text));
   int row = 0;
   bool heading_allowed = true;
   for (std::string text; std::getline(file, text);)

@@ -1,5 +1,8 @@
 #include "io/files.hpp"
 
+#include "io/descriptor.hpp"
+#include "io/input_file.hpp"
+
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
@@ -17,19 +20,6 @@ namespace fs = std::filesystem;
 
 namespace
 {
-/// A file descriptor that closes itself.
-struct Descriptor
-{
-  int fd;
-  explicit Descriptor(int fd) : fd(fd) {}
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  ~Descriptor()
-  {
-    if (fd >= 0) ::close(fd);
-  }
-};
-
 [[noreturn]] void disk_error(const fs::path& path, int error)
 {
   throw Error(exit_code::write_failed,
@@ -117,10 +107,8 @@ void write_text_atomically(const fs::path& path, std::string_view text)
 
 h5::File open_complete(const fs::path& path)
 {
-  if (::access(path.c_str(), R_OK) != 0)
-    throw Error(exit_code::input_missing,
-                fmt::format("{}: cannot be read: {}; check the path and its permissions", path.string(),
-                            std::strerror(errno)));
+  if (const std::string problem = why_no_input(path); !problem.empty())
+    throw Error(exit_code::input_missing, fmt::format("{}: {}", path.string(), problem));
   const auto refuse = [&](const char* what)
   { throw Error(exit_code::bad_input, fmt::format("{}: {}; use another", path.string(), what)); };
 

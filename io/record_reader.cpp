@@ -1,12 +1,11 @@
 #include "io/record_units.hpp"
 
 #include "io/error.hpp"
+#include "io/input_file.hpp"
 
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 namespace mpm
 {
@@ -263,29 +262,15 @@ Record parse_record(std::string_view text, const RecordSource& source)
   return read_column(source, lines);
 }
 
-namespace
-{
-std::string why_not_open(const RecordSource& source, bool is_folder)
-{
-  std::error_code ignored;
-  if (is_folder) return "is a folder; name a record";
-  if (std::filesystem::exists(source.file, ignored)) return "cannot be opened; check its permissions";
-  if (source.origin.empty())
-    return "no such file; see the README for where records come from, or name another";
-  return "no such file; it comes from " + source.origin;
-}
-} // namespace
-
 Record read_record(const RecordSource& source)
 {
-  std::error_code ignored;
-  const bool is_folder = std::filesystem::is_directory(source.file, ignored);
-  std::ifstream file(source.file, std::ios::binary);
-  if (is_folder || !file)
-    throw Error(exit_code::input_missing, source.file + ": " + why_not_open(source, is_folder));
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (file.bad())
-    throw Error(exit_code::input_missing, source.file + ": cannot be read to its end; check the disk");
-  return parse_record(text, source);
+  const InputText input = read_input(source.file, most_of_record);
+  if (input.problem.empty()) return parse_record(input.text, source);
+  const bool missing = !std::filesystem::exists(source.file);
+  throw Error(exit_code::input_missing,
+              source.file + ": " + input.problem +
+                  (!missing                ? ""
+                   : source.origin.empty() ? "; see the README for where records come from, or name another"
+                                           : "; it comes from " + source.origin));
 }
 } // namespace mpm

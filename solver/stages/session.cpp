@@ -189,6 +189,7 @@ std::optional<h5::File> Session::newest_checkpoint()
 
 void Session::loop_begins(std::int64_t step, const Model& model)
 {
+  stop_at_a_step();
   earlier_ = model.main->times.seconds();
   loop_start_ = Wall::now();
   first_step_ = step;

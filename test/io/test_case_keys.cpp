@@ -173,7 +173,7 @@ TEST_CASE("A missing case or profile has its own exit code", "[io]")
     CHECK(error.code == exit_code::input_missing);
   }
   const std::string text = replaced(small, "points: [[0 m, 10 m]]", "file: no.csv");
-  CHECK(refusal(text) == "66\ncase.yaml:5:18: surfaces.ground.file: no.csv cannot be read; paths are "
+  CHECK(refusal(text) == "66\ncase.yaml:5:18: surfaces.ground.file: no.csv: no such file; paths are "
                          "relative to the case file\n");
   CHECK(refusal(replaced(text, "40 MPa", "40")).starts_with("65\n"));
 }

@@ -100,7 +100,6 @@ public:
     {
       const rlimit limit{most_bytes, most_bytes};
       setrlimit(RLIMIT_FSIZE, &limit);
-      std::signal(SIGXFSZ, SIG_IGN); // then write() fails as it does on a full disk
     }
     execv(argv[0], argv.data());
     _exit(127);
