@@ -1,6 +1,7 @@
 #include "io/files.hpp"
 
 #include "io/descriptor.hpp"
+#include "io/digest.hpp"
 #include "io/input_file.hpp"
 
 #include <algorithm>
@@ -12,6 +13,8 @@
 #include <fcntl.h>
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <fstream>
+#include <initializer_list>
 #include <unistd.h>
 
 namespace mpm
@@ -20,6 +23,17 @@ namespace fs = std::filesystem;
 
 namespace
 {
+using Bytes = std::span<const std::byte>;
+
+constexpr std::string_view seal_words = "\nsha256 of all before this line: ";
+constexpr std::size_t digest_length = 64;
+constexpr std::size_t seal_length = seal_words.size() + digest_length + 1;
+
+std::string seal_of(const std::string& digest)
+{
+  return std::string(seal_words) + digest + "\n";
+}
+
 [[noreturn]] void disk_error(const fs::path& path, int error)
 {
   throw Error(exit_code::write_failed,
@@ -27,16 +41,19 @@ namespace
                           std::strerror(error)));
 }
 
-void write_synced(const fs::path& path, std::span<const std::byte> bytes)
+/// Whatever stands at `path` goes first: a link there is not written through.
+void write_synced(const fs::path& path, std::initializer_list<Bytes> parts)
 {
-  const Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+  if (::unlink(path.c_str()) != 0 && errno != ENOENT) disk_error(path, errno);
+  const Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
   if (file.fd < 0) disk_error(path, errno);
-  while (!bytes.empty())
-  {
-    const ssize_t count = ::write(file.fd, bytes.data(), std::min(bytes.size(), std::size_t(1) << 28));
-    if (count < 0 && errno != EINTR) disk_error(path, errno);
-    if (count > 0) bytes = bytes.subspan(std::size_t(count));
-  }
+  for (Bytes bytes : parts)
+    while (!bytes.empty())
+    {
+      const ssize_t count = ::write(file.fd, bytes.data(), std::min(bytes.size(), std::size_t(1) << 28));
+      if (count < 0 && errno != EINTR) disk_error(path, errno);
+      if (count > 0) bytes = bytes.subspan(std::size_t(count));
+    }
   if (::fsync(file.fd) != 0) disk_error(path, errno);
 }
 
@@ -48,13 +65,13 @@ void sync_folder(const fs::path& folder)
     disk_error(folder, errno); // some file systems have no such sync
 }
 
-void replace_file(const fs::path& path, std::span<const std::byte> bytes)
+void replace_file(const fs::path& path, std::initializer_list<Bytes> parts)
 {
   fs::path temporary = path;
   temporary += ".tmp";
   try
   {
-    write_synced(temporary, bytes);
+    write_synced(temporary, parts);
     if (std::rename(temporary.c_str(), path.c_str()) != 0) disk_error(path, errno);
   }
   catch (const Error&)
@@ -64,6 +81,34 @@ void replace_file(const fs::path& path, std::span<const std::byte> bytes)
     throw;
   }
   sync_folder(path.parent_path());
+}
+
+[[noreturn]] void refuse(const fs::path& path, const char* what)
+{
+  throw Error(exit_code::bad_input, fmt::format("{}: {}; use another", path.string(), what));
+}
+
+/// The digest that a file's seal holds and the bytes before it have.
+std::string check_seal(const fs::path& path)
+{
+  std::ifstream file(path, std::ios::binary);
+  std::size_t left = std::size_t(fs::file_size(path));
+  if (left < seal_length) refuse(path, "the file is not complete");
+  Sha256 digest;
+  std::string part(std::size_t(1) << 20, '\0');
+  for (left -= seal_length; left > 0 && file; left -= std::size_t(file.gcount()))
+  {
+    file.read(part.data(), std::streamsize(std::min(left, part.size())));
+    digest.add(std::string_view(part).substr(0, std::size_t(file.gcount())));
+  }
+  std::string seal(seal_length, '\0');
+  file.read(seal.data(), std::streamsize(seal_length));
+  if (!file) refuse(path, "it cannot be read to its end");
+  if (!seal.starts_with(seal_words))
+    refuse(path, "the file is not complete: no digest stands at its end (older versions wrote none)");
+  const std::string found = digest.hexadecimal();
+  if (seal != seal_of(found)) refuse(path, "the file is damaged: it is not what was written");
+  return found;
 }
 } // namespace
 
@@ -92,31 +137,30 @@ void write_provenance(h5::Group& root, const Provenance& provenance, std::string
   root.attribute("sign", "tension positive; x right, y up");
 }
 
-void write_file_atomically(const fs::path& path, const std::function<void(h5::File&)>& fill)
+std::string write_file_atomically(const fs::path& path, const std::function<void(h5::File&)>& fill)
 {
   h5::File file = h5::File::in_memory(path);
   fill(file);
-  file.attribute("complete", 1);
-  replace_file(path, file.image());
+  const Bytes image = file.image();
+  const std::string digest = sha256({reinterpret_cast<const char*>(image.data()), image.size()});
+  const std::string seal = seal_of(digest);
+  replace_file(path, {image, std::as_bytes(std::span(seal))});
+  return digest;
 }
 
 void write_text_atomically(const fs::path& path, std::string_view text)
 {
-  replace_file(path, std::as_bytes(std::span(text)));
+  replace_file(path, {std::as_bytes(std::span(text))});
 }
 
-h5::File open_complete(const fs::path& path)
+h5::File open_complete(const fs::path& path, std::string* digest)
 {
   if (const std::string problem = why_no_input(path); !problem.empty())
     throw Error(exit_code::input_missing, fmt::format("{}: {}", path.string(), problem));
-  const auto refuse = [&](const char* what)
-  { throw Error(exit_code::bad_input, fmt::format("{}: {}; use another", path.string(), what)); };
-
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  if (H5Fis_hdf5(path.c_str()) <= 0) refuse("not an HDF5 file, or its beginning is damaged");
-  h5::File file = h5::File::open(path);
-  if (!file.has_attribute("complete") || file.attribute_int("complete") != 1)
-    refuse("the file is not complete");
-  return file;
+  if (H5Fis_hdf5(path.c_str()) <= 0) refuse(path, "not an HDF5 file, or its beginning is damaged");
+  const std::string found = check_seal(path);
+  if (digest) *digest = found;
+  return h5::File::open(path);
 }
 } // namespace mpm

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <openssl/evp.h>
 
 #include <algorithm>
 #include <array>
@@ -12,7 +11,6 @@
 #include <fcntl.h>
 #include <fstream>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <sys/file.h>
 #include <unistd.h>
@@ -71,6 +69,16 @@ std::vector<fs::path> files_in(const fs::path& folder, const std::function<bool(
               fmt::format("{}: cannot write: {}; choose another --out", path.string(), reason));
 }
 
+/// Two files are written in place, the lock and the log: not into another file by a link, nor into no file.
+void refuse_link(const fs::path& file)
+{
+  const fs::file_status status = fs::symlink_status(file);
+  if (!fs::exists(status)) return;
+  if (!fs::is_regular_file(status) || fs::hard_link_count(file) > 1)
+    taken(file.parent_path(),
+          file.filename().string() + " is no plain file of its own; remove it or choose another --out");
+}
+
 RunFolder::Identity read_identity(const fs::path& path)
 {
   try
@@ -115,45 +123,7 @@ std::string difference(const RunFolder::Identity& here, const RunFolder::Identit
     if (!value_of(wanted, key)) return fmt::format("{} is not set, but {} in the run it holds", key, value);
   return {};
 }
-
-/// Feeds one EVP digest.
-class Sha256
-{
-public:
-  Sha256() { EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr); }
-  void add(std::string_view bytes) { EVP_DigestUpdate(context_.get(), bytes.data(), bytes.size()); }
-  std::string hexadecimal()
-  {
-    std::array<unsigned char, EVP_MAX_MD_SIZE> digest;
-    unsigned length = 0;
-    EVP_DigestFinal_ex(context_.get(), digest.data(), &length);
-    return fmt::format("{:02x}", fmt::join(digest.begin(), digest.begin() + length, ""));
-  }
-
-private:
-  std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_{EVP_MD_CTX_new(), &EVP_MD_CTX_free};
-};
 } // namespace
-
-std::string sha256(std::string_view text)
-{
-  Sha256 digest;
-  digest.add(text);
-  return digest.hexadecimal();
-}
-
-std::string sha256_file(const fs::path& path)
-{
-  std::ifstream file(path, std::ios::binary);
-  Sha256 digest;
-  std::vector<char> buffer(1 << 20);
-  while (file.read(buffer.data(), std::streamsize(buffer.size())) || file.gcount() > 0)
-    digest.add({buffer.data(), std::size_t(file.gcount())});
-  if (!file.eof())
-    throw Error(exit_code::input_missing,
-                path.string() + ": cannot be read; check the path and its permissions");
-  return digest.hexadecimal();
-}
 
 std::string checkpoint_name(std::int64_t step)
 {
@@ -168,6 +138,7 @@ RunFolder::RunFolder(fs::path path, const Identity& identity, bool fresh) : path
   try
   {
     lock();
+    refuse_link(path_ / "log.txt");
     if (fresh)
       for (const auto& file : files_in(path_, is_output)) fs::remove(file);
     check_identity(identity);
@@ -193,7 +164,8 @@ RunFolder::~RunFolder()
 void RunFolder::lock()
 {
   const fs::path file = path_ / ".lock";
-  lock_ = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  refuse_link(file);
+  lock_ = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
   if (lock_ < 0) cannot_write(file, std::strerror(errno));
   if (::flock(lock_, LOCK_EX | LOCK_NB) != 0)
   {

@@ -1,20 +1,17 @@
 #pragma once
 // The output folder of a run: one run at a time, and one case, motion and setting for good.
 
+#include "io/digest.hpp"
+
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
 namespace mpm
 {
-/// SHA-256 in lower-case hexadecimal.
-std::string sha256(std::string_view text);
-std::string sha256_file(const std::filesystem::path&);
-
 /// "checkpoint-000062500.h5"
 std::string checkpoint_name(std::int64_t step);
 

@@ -1,5 +1,5 @@
 #include "io/files.hpp"
-#include "test/temporary_folder.hpp"
+#include "test/sealed.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -121,7 +121,65 @@ TEST_CASE("a flipped byte in a dataset is reported, not read", "[io]")
 
   const auto read = [&] { open_complete(folder / "b.h5").read_doubles("particles/mass"); };
   CHECK(code_of(read) == exit_code::bad_input);
+  CHECK_THAT(message_of(read), Contains("b.h5: the file is damaged"));
+  put(folder / "b.h5", sealed(unsealed(bytes))); // the dataset has a checksum of its own
+  CHECK(code_of(read) == exit_code::bad_input);
   CHECK_THAT(message_of(read), Contains("b.h5: /particles/mass") && Contains("checksum"));
+}
+
+TEST_CASE("a flipped bit anywhere in a file, the loss of its end and more behind it are found", "[io]")
+{
+  const TemporaryFolder folder;
+  write_mass(folder / "a.h5", ramp(20));
+  const std::string whole = contents(folder / "a.h5");
+  REQUIRE(unsealed(whole).size() == whole.size() - seal_length);
+  const auto opens = [&](const std::string& bytes)
+  {
+    put(folder / "b.h5", bytes);
+    return code_of([&] { open_complete(folder / "b.h5"); }) == 0;
+  };
+  REQUIRE(opens(whole));
+  for (std::size_t bit = 0; bit < 8 * whole.size(); bit += 7) // every bit of a byte, and most bytes
+  {
+    std::string flipped = whole;
+    flipped[bit / 8] = static_cast<char>(flipped[bit / 8] ^ (1 << bit % 8));
+    INFO("bit " << bit);
+    if (opens(flipped)) FAIL("it was not found");
+  }
+  for (const std::size_t lost :
+       {std::size_t(1), seal_length, seal_length + 1, whole.size() - 8, whole.size()})
+    CHECK_FALSE(opens(whole.substr(0, whole.size() - lost)));
+  CHECK_FALSE(opens(whole + "\n"));
+  CHECK_FALSE(opens(whole + whole.substr(whole.size() - seal_length)));
+}
+
+TEST_CASE("a file tells its digest, and HDF5 alone reads it all the same", "[io]")
+{
+  const TemporaryFolder folder;
+  const std::string written = write_file_atomically(folder / "a.h5", [](h5::File& file)
+                                                    { file.write("particles/mass", ramp(3), {}, "kg"); });
+  std::string read;
+  open_complete(folder / "a.h5", &read);
+  CHECK(read == written);
+  CHECK(read == sha256(unsealed(contents(folder / "a.h5"))));
+  CHECK(h5::File::open(folder / "a.h5").read_doubles("particles/mass") == ramp(3));
+}
+
+TEST_CASE("a file that stands or is linked under the temporary name is not written into", "[io]")
+{
+  const TemporaryFolder folder;
+  put(folder / "precious", "precious");
+  std::filesystem::create_symlink(folder / "precious", folder / "a.h5.tmp");
+  write_mass(folder / "a.h5", ramp(3));
+  std::filesystem::create_hard_link(folder / "precious", folder / "a.txt.tmp");
+  write_text_atomically(folder / "a.txt", "new");
+  CHECK(contents(folder / "precious") == "precious");
+  CHECK(open_complete(folder / "a.h5").read_doubles("particles/mass") == ramp(3));
+  CHECK(contents(folder / "a.txt") == "new");
+  std::filesystem::create_symlink(folder / "precious", folder / "link.txt");
+  write_text_atomically(folder / "link.txt", "new"); // the name is ours, not what it pointed to
+  CHECK(contents(folder / "precious") == "precious");
+  CHECK(contents(folder / "link.txt") == "new");
 }
 
 TEST_CASE("a reader of an incomplete file is told so", "[io]")
@@ -147,7 +205,7 @@ TEST_CASE("a missing file, a cut one and one of another kind are told apart", "[
 
   CHECK(code_of([&] { open_complete(folder / "none.h5"); }) == exit_code::input_missing);
   CHECK(code_of([&] { open_complete(folder / "cut.h5"); }) == exit_code::bad_input);
-  CHECK_THAT(message_of([&] { open_complete(folder / "cut.h5"); }), Contains("truncated"));
+  CHECK_THAT(message_of([&] { open_complete(folder / "cut.h5"); }), Contains("not complete"));
   CHECK(code_of([&] { open_complete(folder / "text.h5"); }) == exit_code::bad_input);
   CHECK_THAT(message_of([&] { open_complete(folder / "text.h5"); }), Contains("not an HDF5 file"));
 }

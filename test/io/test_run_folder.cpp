@@ -161,6 +161,26 @@ TEST_CASE("checkpoints are listed newest first and pruned from the old end", "[i
   CHECK(run.checkpoints()[1].filename() == checkpoint_name(500));
 }
 
+TEST_CASE("links in the place of the lock and the log are refused, and what they lead to is left alone",
+          "[io]")
+{
+  for (const char* name : {".lock", "log.txt"})
+    for (const bool hard : {false, true})
+    {
+      const TemporaryFolder folder;
+      std::filesystem::create_directory(folder / "out");
+      put(folder / "precious", "precious");
+      if (hard)
+        std::filesystem::create_hard_link(folder / "precious", folder / "out" / name);
+      else
+        std::filesystem::create_symlink("../precious", folder / "out" / name);
+      const auto open = [&] { RunFolder(folder / "out", soft); };
+      CHECK(code_of(open) == exit_code::folder_taken);
+      CHECK_THAT(message_of(open), Contains(name));
+      CHECK(contents(folder / "precious") == "precious");
+    }
+}
+
 TEST_CASE("a file in the place of the folder is a failed write", "[io]")
 {
   const TemporaryFolder folder;

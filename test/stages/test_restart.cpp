@@ -1,6 +1,7 @@
 // Runs that are cut short and gone on with, and the same on any number of threads.
 
 #include "solver/mpm/simd.hpp"
+#include "test/sealed.hpp"
 #include "test/stages/programs.hpp"
 #include "test/stages/results.hpp"
 
@@ -75,15 +76,19 @@ void cut_short_and_go_on(const Bench& bench, const std::string& program,
 /// Lets a checkpoint say that it was computed with other instructions.
 void claim_vectors(const fs::path& checkpoint, const char* name)
 {
-  const h5::Handle file{H5Fopen(checkpoint.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose};
-  const h5::Handle clock{H5Gopen(file.id(), "clock", H5P_DEFAULT), H5Gclose};
-  REQUIRE(H5Adelete(clock.id(), "vectors") >= 0);
-  const h5::Handle type{H5Tcopy(H5T_C_S1), H5Tclose};
-  REQUIRE(H5Tset_size(type.id(), H5T_VARIABLE) >= 0);
-  const h5::Handle space{H5Screate(H5S_SCALAR), H5Sclose};
-  const h5::Handle attribute{
-      H5Acreate(clock.id(), "vectors", type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose};
-  REQUIRE(H5Awrite(attribute.id(), type.id(), &name) >= 0);
+  edit_sealed(checkpoint,
+              [&](const h5::Handle& file)
+              {
+                const h5::Handle clock{H5Gopen(file.id(), "clock", H5P_DEFAULT), H5Gclose};
+                REQUIRE(H5Adelete(clock.id(), "vectors") >= 0);
+                const h5::Handle type{H5Tcopy(H5T_C_S1), H5Tclose};
+                REQUIRE(H5Tset_size(type.id(), H5T_VARIABLE) >= 0);
+                const h5::Handle space{H5Screate(H5S_SCALAR), H5Sclose};
+                const h5::Handle attribute{
+                    H5Acreate(clock.id(), "vectors", type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT),
+                    H5Aclose};
+                REQUIRE(H5Awrite(attribute.id(), type.id(), &name) >= 0);
+              });
 }
 
 /// Kills the run at its first checkpoint after it has said that the slide is self-driven.
