@@ -2,51 +2,12 @@
 
 #include "boundaries/base_spring.hpp"
 #include "boundaries/face_columns.hpp"
-#include "boundaries/ground_motion.hpp"
+#include "boundaries/incoming_wave.hpp"
 
-#include <algorithm>
-#include <limits>
 #include <memory>
-#include <numbers>
 
 namespace mpm
 {
-/// How a wave ends before its record does: its velocity fades like a cosine over `length` from `start` on.
-struct Fade
-{
-  static constexpr double length = 0.5;                   ///< s
-  double start = std::numeric_limits<double>::infinity(); ///< s
-
-  double end() const { return start + length; }
-  /// What is left of the velocity at `t` in s.
-  double share(double t) const
-  {
-    const double s = std::clamp((t - start) / length, 0.0, 1.0);
-    return 0.5 + 0.5 * std::cos(std::numbers::pi * s);
-  }
-};
-
-/// The upgoing wave that enters at the base: S (horizontal) and P (vertical) part, each of them optional.
-struct IncomingWave
-{
-  std::optional<GroundMotion> horizontal, vertical;
-  Fade fade;
-
-  /// When nothing comes any more, s.
-  double end() const
-  {
-    const auto duration = [](const std::optional<GroundMotion>& motion)
-    { return motion ? motion->duration() : 0; };
-    return std::min(std::max(duration(horizontal), duration(vertical)), fade.end());
-  }
-  std::array<double, 2> velocity(double t) const
-  {
-    const double share = fade.share(t);
-    return {horizontal ? share * horizontal->upgoing_velocity(t) : 0,
-            vertical ? share * vertical->upgoing_velocity(t) : 0};
-  }
-};
-
 /// Compliant base (paper eq. 4): viscous dashpots on the bottom face whose far end moves with twice the
 /// upgoing velocity; the static reaction is that of the frozen images. A spring, where there is one, keeps
 /// the base from drifting away from the free field.

@@ -1,8 +1,9 @@
 #include "boundaries/ground_motion.hpp"
 
+#include "boundaries/motion_checks.hpp"
+
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <numbers>
 #include <stdexcept>
 #include <tuple>
@@ -40,34 +41,11 @@ std::string_view name_in(const Names& names, Value value)
   return std::ranges::find(names, value, [](const auto& pair) { return pair.first; })->second;
 }
 
-std::string number(double value)
-{
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
-}
-
-double peak(const Series& x)
-{
-  double largest = 0;
-  for (double value : x) largest = std::max(largest, std::abs(value));
-  return largest;
-}
-
 Series integral(const Series& x, double dt)
 {
   Series sum(x.size());
   for (std::size_t i = 1; i < x.size(); ++i) sum[i] = sum[i - 1] + 0.5 * dt * (x[i - 1] + x[i]);
   return sum;
-}
-
-/// Integral of v, exact for the Hermite interpolant.
-Series displacement(const Series& v, const Series& a, double dt)
-{
-  Series u(v.size());
-  for (std::size_t i = 1; i < v.size(); ++i)
-    u[i] = u[i - 1] + 0.5 * dt * (v[i - 1] + v[i]) + dt * dt / 12 * (a[i - 1] - a[i]);
-  return u;
 }
 
 /// Fourth order differences, exact for quartics; inside the first two and last two samples one-sided.
@@ -170,12 +148,6 @@ void taper_ends(Series& v, Series& a, double dt, double length)
   }
 }
 
-double taper_of(const MotionProcessing& processing)
-{
-  if (!std::isnan(processing.taper)) return processing.taper;
-  return processing.baseline == Baseline::none && processing.high_pass == 0 ? 0 : 0.5;
-}
-
 void check(const Record& record, const MotionProcessing& processing)
 {
   const auto refuse = [&](const std::string& what) { throw std::runtime_error(record.source + ": " + what); };
@@ -200,34 +172,6 @@ void check(const Record& record, const MotionProcessing& processing)
            " s of record can hold; raise it, or 0 for off");
 }
 
-void warn_of_unit(MotionReport& report, double pga, const Record& record)
-{
-  const double in_g = pga / standard_gravity;
-  if (in_g <= 3 && in_g >= 1e-4) return;
-  report.warnings.push_back(record.source + ": peak acceleration is " + number(in_g) + " g before scaling, " +
-                            (in_g > 3 ? "more than 3 g" : "less than 1e-4 g") + "; is the unit" +
-                            (record.unit.empty() ? "" : " '" + record.unit + "'") + " right?");
-}
-
-void measure(MotionReport& report, const Series& v, const Series& a, double dt)
-{
-  report.pga = peak(a);
-  report.pga_time =
-      dt * double(std::ranges::max_element(a, {}, [](double x) { return std::abs(x); }) - a.begin());
-  report.pgv = peak(v);
-  const Series u = displacement(v, a, dt);
-  report.pgd = peak(u);
-  report.residual_velocity = v.back();
-  report.residual_displacement = u.back();
-  Series squared(a.size());
-  std::ranges::transform(a, squared.begin(), [](double x) { return x * x; });
-  const Series husid = integral(squared, dt);
-  report.arias = 0.5 * pi / standard_gravity * husid.back();
-  const auto time_of = [&](double part)
-  { return dt * double(std::ranges::lower_bound(husid, part * husid.back()) - husid.begin()); };
-  report.d5_95 = time_of(0.95) - time_of(0.05);
-}
-
 /// Velocity and its slope from a record of any quantity.
 std::pair<Series, Series> velocity_and_slope(Series values, Quantity quantity, double dt)
 {
@@ -241,6 +185,12 @@ std::pair<Series, Series> velocity_and_slope(Series values, Quantity quantity, d
   return {std::move(values), std::move(a)};
 }
 } // namespace
+
+double taper_of(const MotionProcessing& processing)
+{
+  if (!std::isnan(processing.taper)) return processing.taper;
+  return processing.baseline == Baseline::none && processing.high_pass == 0 ? 0 : 0.5;
+}
 
 std::optional<Quantity> quantity_from(std::string_view name)
 {
@@ -281,8 +231,8 @@ double GroundMotion::upgoing_velocity(double t) const
 double GroundMotion::upgoing_acceleration(double t) const
 {
   if (velocity.empty() || !(t >= 0)) return 0;
-  const double x = t / dt;
-  if (x >= double(velocity.size() - 1)) return 0;
+  const double x = t / dt, last = double(velocity.size() - 1);
+  if (x >= last) return x <= last * (1 + 1e-12) ? acceleration.back() : 0; // the end is the record's
   const auto i = std::size_t(x);
   const double s = x - double(i), r = 1 - s;
   return 6 * r * s * (velocity[i + 1] - velocity[i]) / dt + r * (r - 2 * s) * acceleration[i] +
@@ -298,9 +248,10 @@ GroundMotion make_ground_motion(const Record& record, const MotionProcessing& pr
   for (double& value : values) value *= processing.scale;
 
   auto [v, a] = velocity_and_slope(values, record.quantity, dt);
-  if (processing.scale != 0) warn_of_unit(motion.report, peak(a) / std::abs(processing.scale), record);
-  motion.report.raw_residual_velocity = v.back();
-  motion.report.raw_residual_displacement = displacement(v, a, dt).back();
+  MotionReport& report = motion.report;
+  report.recorded = measure(v, a, dt);
+  refuse_overflow(record, processing, report.recorded);
+  const Series as_recorded = a;
 
   if (processing.high_pass > 0)
   {
@@ -312,14 +263,14 @@ GroundMotion make_ground_motion(const Record& record, const MotionProcessing& pr
   correct_baseline(v, a, dt, processing.baseline);
   if (const double taper = taper_of(processing); taper > 0) taper_ends(v, a, dt, taper);
   if (processing.baseline != Baseline::none) v.back() = 0; // of rounding
-  measure(motion.report, v, a, dt);
-  if (std::abs(v.back()) > 1e-3 * motion.report.pgv)
-    motion.report.warnings.push_back(record.source + ": the motion ends with " + number(v.back()) +
-                                     " m/s and the base drifts on; give a baseline to bring it to rest");
+  report.corrected = measure(v, a, dt);
+  refuse_overflow(record, processing, report.corrected);
+  report.spectrum = spectral_change(as_recorded, a, dt);
+  report.warnings = motion_warnings(record, processing, report);
 
-  const double share = processing.recorded_as == RecordedAs::outcrop ? 0.5 : 1; // v_outcrop = 2 v_up
-  for (double& value : v) value *= share;
-  for (double& value : a) value *= share;
+  report.share = processing.recorded_as == RecordedAs::outcrop ? 0.5 : 1; // v_outcrop = 2 v_up
+  for (double& value : v) value *= report.share;
+  for (double& value : a) value *= report.share;
   motion.velocity = std::move(v);
   motion.acceleration = std::move(a);
   return motion;

@@ -1,6 +1,8 @@
 #pragma once
 // A recorded time series and the upgoing wave that is made of it for a compliant base.
 
+#include "boundaries/motion_measures.hpp"
+
 #include <cmath>
 #include <optional>
 #include <string>
@@ -9,9 +11,6 @@
 
 namespace mpm
 {
-inline constexpr double standard_gravity =
-    9.80665; ///< 1 g in m/s2, the unit of records (not the case's gravity)
-
 /// What a record holds.
 enum class Quantity
 {
@@ -74,19 +73,13 @@ struct MotionProcessing
   double scale = 1;
 };
 
-/// Measures of the motion as processed, before the halving of an outcrop; residuals raw and as processed.
+/// What the record is, scaled, before and after its correction; measures are of the kind of the record, that
+/// is before the halving of an outcrop.
 struct MotionReport
 {
-  double pga = 0;                       ///< m/s2
-  double pga_time = 0;                  ///< s
-  double pgv = 0;                       ///< m/s
-  double pgd = 0;                       ///< m
-  double arias = 0;                     ///< m/s, pi / (2 g) times the integral of a^2
-  double d5_95 = 0;                     ///< s, from 5 to 95 % of the Arias intensity
-  double raw_residual_velocity = 0;     ///< m/s, v(end) of the scaled record before any correction
-  double raw_residual_displacement = 0; ///< m, u(end), likewise
-  double residual_velocity = 0;         ///< m/s, v(end) as processed
-  double residual_displacement = 0;     ///< m, u(end) as processed
+  MotionMeasures recorded, corrected;
+  SpectralChange spectrum; ///< by the correction
+  double share = 1;        ///< of the record that goes up: a half of an outcrop
   std::vector<std::string> warnings;
 };
 
@@ -103,14 +96,17 @@ struct GroundMotion
 
   /// v_up at time t in s: 0 up to the start, the last value after the end (0 unless baseline is none).
   double upgoing_velocity(double t) const;
-  /// Slope of upgoing_velocity: 0 outside the record.
+  /// Slope of upgoing_velocity: 0 before the record's first and after its last sample.
   double upgoing_acceleration(double t) const;
 };
+
+/// `taper`, or what stands for it where it is left out.
+double taper_of(const MotionProcessing& processing);
 
 /// Makes the upgoing wave of a record: scale; high-pass with zero pads of 1.5 order / corner; trapezoidal
 /// integration to v (pads included); baseline; tapers on v; half of it for an outcrop. An overall mean needs
 /// no step of its own: it is removed before the filter, and otherwise it is part of the baseline. Velocity
 /// and displacement records are differentiated to 4th order. Throws std::runtime_error where a setting does
-/// not fit the record.
+/// not fit the record, or the motion goes beyond the numbers of the machine.
 GroundMotion make_ground_motion(const Record& record, const MotionProcessing& processing);
 } // namespace mpm

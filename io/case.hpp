@@ -138,7 +138,8 @@ enum class Inertia
 /// `seismic`. The kinds of base and sides rule the free-field columns of the static stage too.
 struct SeismicSettings
 {
-  double duration = 0; ///< s; 0: the case has no seismic section
+  double duration = 0;       ///< s; 0: the case has no seismic section; NaN: it goes with the record
+  double after_record = NAN; ///< s that the run goes on after its record; NaN: `duration` is given
   BaseKind base = BaseKind::compliant;
   SpringTime spring;
   SideKind sides = SideKind::free_field;

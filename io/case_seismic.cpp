@@ -1,5 +1,8 @@
 #include "io/case_sections.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace mpm
 {
 namespace
@@ -94,6 +97,39 @@ SpringTime read_spring(Section& base, BaseKind kind, Problems& problems)
   return {};
 }
 
+constexpr std::string_view with_record = "record";
+
+/// What follows the record in `record` or `record + TIME`, s; NaN: the text is neither.
+double after_record(std::string_view text)
+{
+  text.remove_prefix(with_record.size());
+  const auto skip_blanks = [&] { text.remove_prefix(std::min(text.find_first_not_of(' '), text.size())); };
+  skip_blanks();
+  if (text.empty()) return 0;
+  if (!text.starts_with('+')) return NAN;
+  text.remove_prefix(1);
+  skip_blanks();
+  const Quantified time = parse_quantity(text, Dimension::time);
+  return time.problem.empty() && time.value >= 0 ? time.value : NAN;
+}
+
+void read_duration(Section& section, SeismicSettings& settings, Problems& problems)
+{
+  const YamlNode* node = section.require("duration");
+  if (!node) return;
+  if (node->kind != YamlNode::Kind::scalar || !node->text.starts_with(with_record))
+  {
+    settings.duration = read_number(*node, Dimension::time, Range::positive(), problems);
+    return;
+  }
+  settings.duration = NAN;
+  settings.after_record = after_record(node->text);
+  if (std::isnan(settings.after_record))
+    problems.add(node->place, node->path,
+                 "is '" + node->text +
+                     "'; must be record, record + a time as 'record + 10 s', or a time as '24 s'");
+}
+
 MotionSettings read_motion(Section motion, const std::filesystem::path& folder, Problems& problems)
 {
   MotionSettings settings;
@@ -120,10 +156,12 @@ SeismicSettings read_seismic(Section& root, const std::filesystem::path& folder,
   SeismicSettings settings;
   Section section = root.optional_section("seismic");
   if (!section.given()) return settings;
-  settings.duration = section.number("duration", Dimension::time, Range::positive());
+  read_duration(section, settings, problems);
   {
     Section base = section.optional_section("base");
     settings.base = static_cast<BaseKind>(base.choice_or(0, "kind", {"compliant", "fixed"}));
+    if (settings.base == BaseKind::fixed && !std::isnan(settings.after_record))
+      section.error("duration", "counts from a record, and a fixed base takes none; give a time as '24 s'");
     settings.spring = read_spring(base, settings.base, problems);
     Section sides = section.optional_section("sides");
     settings.sides = static_cast<SideKind>(sides.choice_or(0, "kind", {"free_field", "quiet", "roller"}));

@@ -75,7 +75,7 @@ def draw_section(axis, folder, norm):
     ended = summary.get("motion_ended")
     words = "whole motion" if ended is None else f"motion until {ended:.1f} s"
     plot_sections.draw_panel(axis, particles, {
-        "title": f"{summary['motion']}, {words}, t = {time:.1f} s: {summary['slide']['moved_area']:.0f} m² moved",
+        "title": f"{summary['motion_title']}, {words}, t = {time:.1f} s: {summary['slide']['moved_area']:.0f} m² moved",
         "values": particles["plastic_strain"], "grey": plot_sections.without_strain([particles])[0],
         "colours": "inferno_r", "norm": norm}, extent)
     with open_history(folder) as file:

@@ -81,11 +81,8 @@ def read_summary(folder):
 
 def heading_of(folder, summary):
     """Title of the pictures: name of the case (or of the folder) and of the motion."""
-    motion = summary.get("motion")
-    if isinstance(motion, dict):
-        motion = motion.get("name") or motion.get("file") or motion.get("horizontal")
     name = text(summary.get("name") or folder.resolve().name)
-    return f"{name}, {Path(motion).name}" if isinstance(motion, str) and motion else name
+    return f"{name}, {summary['motion_title']}" if summary.get("motion_title") else name
 
 
 def save(figure, path, heading):

@@ -2,6 +2,7 @@
 
 #include "boundaries/motion_spectrum.hpp"
 #include "solver/mpm/dispersion.hpp"
+#include "solver/stages/motion.hpp"
 
 #include <algorithm>
 
@@ -51,7 +52,9 @@ void report_wave_fidelity(Session& session, double dt, const IncomingWave* wave)
   facts = {{"spacing", grid.spacing}, {"particles_per_cell", grid.particles_per_cell}};
   std::array<std::optional<MotionSpectrum>, kinds.size()> spectra;
   for (std::size_t k = 0; wave && k < kinds.size(); ++k)
-    if (const auto& motion = wave->*kinds[k].motion) spectra[k].emplace(*motion);
+    if (const auto& motion = wave->*kinds[k].motion)
+      spectra[k].emplace(sampled(*motion, planned_fade(seismic.motion), motion->dt,
+                                 std::min(seismic.duration, motion->duration())));
   for (const Material& material : session.scene.materials)
   {
     const Elastic& e = material.elastic();

@@ -1,6 +1,7 @@
 #include "solver/stages/observer.hpp"
 
 #include "io/frames.hpp"
+#include "solver/stages/motion.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -94,7 +95,6 @@ void Observer::add_series()
                       history_.add_series(group + "base_displacement", "m", {component}, fast_),
                       history_.add_series(group + "base_velocity", "m/s", {component}, fast_)});
   }
-  upgoing_ = history_.add_series("motion/upgoing_velocity", "m/s", {component}, fast_);
   slide_.add_series(history_, slow_);
   add_ledgers();
   if (session_.scene.seismic.base == BaseKind::fixed) return;
@@ -148,6 +148,12 @@ void Observer::look(const Clock& clock, bool first)
   if (first || clock.passed(output.frames.every)) write_frame(clock);
 }
 
+void Observer::look_last(const Clock& clock)
+{
+  if (history_.times(slow_).back() < clock.time()) sample_slide(clock);
+  if (frames_.back().second < clock.time()) write_frame(clock);
+}
+
 void Observer::sample_gauges(const Clock& clock)
 {
   history_.start_row(clock.time(), fast_);
@@ -178,7 +184,6 @@ void Observer::sample_gauges(const Clock& clock)
     history_.record(side.base_displacement, displacement_of(column, bottom));
     history_.record(side.base_velocity, velocity_of(column, bottom));
   }
-  history_.record(upgoing_, wave_.velocity(clock.time()));
 }
 
 void Observer::sample_slide(const Clock& clock)
@@ -258,10 +263,14 @@ void Observer::load(const h5::File& file)
   slide_.load(group.open_group("slide"));
 }
 
-void Observer::write() const
+void Observer::write(double until) const
 {
   history_.write(*session_.folder / "history.h5", session_.provenance(),
-                 [this](h5::File& file) { slide_.write(file); });
+                 [&](h5::File& file)
+                 {
+                   write_motion(file, wave_, session_.scene.output.gauges.every, until);
+                   slide_.write(file);
+                 });
 }
 
 nlohmann::json Observer::summary() const

@@ -15,10 +15,12 @@ public:
   void place_gauges();
   /// Looks at the state that the clock has just reached; `first` at the start of the stage.
   void look(const Clock& clock, bool first);
+  /// Looks at the end of the stage, where it is not due anyway: slide and frame.
+  void look_last(const Clock& clock);
   void save(h5::File& file) const;
   void load(const h5::File& file);
-  /// Writes history.h5.
-  void write() const;
+  /// Writes history.h5, the motion as applied until `until` s.
+  void write(double until) const;
   const Slide& slide() const { return slide_; }
   /// Peaks for the summary.
   nlohmann::json summary() const;
@@ -50,7 +52,7 @@ private:
   const IncomingWave& wave_;
   History history_;
   History::Clock fast_ = 0, slow_ = 0;
-  History::Series displacement_ = 0, velocity_ = 0, acceleration_ = 0, upgoing_ = 0;
+  History::Series displacement_ = 0, velocity_ = 0, acceleration_ = 0;
   Slide slide_;
   std::vector<LedgerSeries> ledgers_;
   History::Series corner_ = 0, rotation_ = 0, greatest_drift_ = 0;

@@ -5,6 +5,7 @@
 //   (the same again)                                          goes on after an interruption
 
 #include "io/checkpoint.hpp"
+#include "io/units.hpp"
 #include "solver/mpm/parallel.hpp"
 #include "solver/stages/boundary_reports.hpp"
 #include "solver/stages/energy_watch.hpp"
@@ -95,8 +96,8 @@ public:
     }
     catch (const Diverged&)
     {
-      observer_.write();
-      session_.finish("seismic", exit_code::diverged, model_, clock, summary());
+      observer_.write(applied_until(clock));
+      session_.finish("seismic", exit_code::diverged, model_, clock, summary(clock));
       throw;
     }
   }
@@ -145,18 +146,19 @@ private:
         save(checkpoint_name(clock.step), clock);
         if (!session_.must_stop()) continue;
         session_.log.info("stopped at t = {:.3f} s; the same command goes on", clock.time());
-        session_.finish("seismic", exit_code::interrupted, model_, clock, summary());
+        session_.finish("seismic", exit_code::interrupted, model_, clock, summary(clock));
         return exit_code::interrupted;
       }
     }
     progress.finish(moment());
     report_boundaries(session_, model_);
-    report_end();
+    observer_.look_last(clock);
+    report_end(clock);
     report_rest(clock);
     save("final.h5", clock);
     energy_.report();
     session_.folder->prune(0);
-    session_.finish("seismic", exit_code::done, model_, clock, summary());
+    session_.finish("seismic", exit_code::done, model_, clock, summary(clock));
     return exit_code::done;
   }
 
@@ -192,10 +194,12 @@ private:
     if (!std::isnan(self_driven_.decided())) motion_.wave->fade.start = self_driven_.decided();
   }
 
-  void report_end() const
+  void report_end(const Clock& clock) const
   {
-    if (ends_self_driven() && std::isnan(self_driven_.decided()))
-      session_.log.info("the slide never was self-driven: the whole motion was applied");
+    if (!ends_self_driven()) return;
+    if (std::isnan(self_driven_.decided()))
+      session_.log.info("the slide never was self-driven: the motion was not ended");
+    report_what_was_applied(session_, motion_, applied_until(clock));
   }
 
   void report_rest(const Clock& clock) const
@@ -221,15 +225,22 @@ private:
                                 self_driven_.save(motion);
                                 flip_.save(motion);
                               });
-    observer_.write();
+    observer_.write(applied_until(clock));
     session_.folder->prune(session_.scene.output.checkpoint.keep);
   }
 
-  nlohmann::json summary() const
+  /// Until when the motion was applied, s: the last step may go beyond the run's end.
+  double applied_until(const Clock& clock) const
+  {
+    return std::min(clock.time(), session_.scene.seismic.duration);
+  }
+
+  nlohmann::json summary(const Clock& clock) const
   {
     nlohmann::json result = observer_.summary();
     result["energy"] = energy_.summary();
-    result["motion"] = motion_.title;
+    result["motion"] = motion_.summary(applied_until(clock));
+    result["motion_title"] = motion_.title;
     result["skipped_particle_steps"] = model_.main->rest.skipped;
     const double end = motion_.wave->fade.end();
     result["motion_ended"] = std::isfinite(end) ? nlohmann::json(end) : nlohmann::json();
@@ -253,9 +264,6 @@ int run_seismic(Session& session)
   const Options& options = session.options;
   if (scene.seismic.duration <= 0)
     throw Error(exit_code::bad_input, scene.path.string() + ": has no seismic section; nothing to shake");
-  if (scene.seismic.base == BaseKind::fixed &&
-      (scene.seismic.motion.horizontal || scene.seismic.motion.vertical))
-    session.log.warn("seismic.base: a fixed base takes no motion: the record is not applied");
   if (options.from.empty() && scene.statics.gravity != 0)
     throw Error(exit_code::usage, "mpm-seismic: --from is missing: give the final.h5 of mpm-static");
 
@@ -282,7 +290,9 @@ int run_seismic(Session& session)
 
   // 2. The folder: ours, finished, or to be gone on with.
   RunFolder::Identity identity{{"stage", "seismic"}};
-  for (const auto& setting : settings_with_digests(scene)) identity.push_back(setting);
+  for (const auto& setting : settings_with_digests(scene))
+    if (!makes_motion(setting.first)) identity.push_back(setting);
+  identity.push_back({"seismic.duration", number_text(scene.seismic.duration) + " s"});
   identity.insert(identity.end(), motion.identity.begin(), motion.identity.end());
   if (!options.from.empty()) identity.push_back({"from", sha256_file(options.from)});
   session.open_folder(identity);

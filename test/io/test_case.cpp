@@ -263,3 +263,23 @@ TEST_CASE("A record that is missing is told with where it can be had", "[io]")
     CHECK_THAT(error.what(), Contains("records/none.AT2: no such file; it comes from the archive, record 7"));
   }
 }
+
+TEST_CASE("a run's length is a time, or goes with its record", "[io]")
+{
+  const auto seismic = [](const std::string& duration)
+  { return load(small + "seismic: {duration: " + duration + "}\n").seismic; };
+  CHECK(seismic("24 s").duration == 24);
+  CHECK(std::isnan(seismic("24 s").after_record));
+  CHECK(seismic("record").after_record == 0);
+  CHECK(std::isnan(seismic("record").duration));
+  for (const std::string text : {"record + 10 s", "record+10s", "record +10 s", "'record + 10 s'"})
+    CHECK(seismic(text).after_record == 10);
+  CHECK(seismic("record + 1 min").after_record == 60);
+  CHECK(load(small + "seismic: {duration: 1 s}\n", {"seismic.duration=record + 2 s"}).seismic.after_record ==
+        2);
+  for (const std::string text :
+       {"record 10 s", "record - 10 s", "record + 10", "record + -1 s", "records", "record +"})
+    CHECK_THAT(refusal(small + "seismic: {duration: " + text + "}\n"),
+               Contains("65\n") && Contains("seismic.duration") && Contains("'record + 10 s'"));
+  CHECK_THAT(refusal(small + "seismic: {duration: record, base: {kind: fixed}}\n"), Contains("a fixed base"));
+}

@@ -1,0 +1,280 @@
+// The motion that a run applies is the one that it reports.
+
+#include "test/stages/programs.hpp"
+#include "test/stages/results.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <sstream>
+
+using namespace mpm;
+using namespace mpm::test;
+using Catch::Matchers::Contains;
+
+namespace
+{
+/// A block of rock without gravity, shaken by shake.txt: 1.2 s in steps of 10 ms, peak 12 m/s2.
+const std::string block = R"(schema: seismpm-case/1
+name: block
+grid: {spacing: 2 m, particles_per_cell: 2}
+domain: {x: [0 m, 8 m], bottom: 0 m}
+surfaces:
+  ground: {points: [[0 m, 6 m]]}
+regions:
+  - {material: rock, below: ground}
+materials:
+  rock: {model: elastic, density: 2000 kg/m3, young_modulus: 200 MPa, poisson_ratio: 0.25}
+static: {gravity: 0 m/s2}
+seismic:
+  duration: 0.6 s
+  motion:
+    recorded_as: outcrop
+    horizontal: {file: shake.txt, format: column, dt: 0.01 s, unit: m/s2}
+    baseline: none
+output:
+  frames: {every: 0.25 s}
+  gauges: {points: {top: [4 m, 6 m]}}
+)";
+
+class Block
+{
+public:
+  Block()
+  {
+    put(bench_ / "case.yaml", block);
+    put(bench_ / "shake.txt", sine(12, 2));
+  }
+  fs::path operator/(const std::string& name) const { return bench_ / name; }
+  Ending run(const std::string& out, const Arguments& more = {}) const
+  {
+    Arguments all{bench_.path("case.yaml"), "--out", bench_.path(out), "--threads", "1"};
+    all.insert(all.end(), more.begin(), more.end());
+    return bench_.run("mpm-seismic", all);
+  }
+  nlohmann::json summary(const std::string& out) const
+  {
+    return nlohmann::json::parse(contents(bench_ / out / "summary.json"));
+  }
+  /// Motion `name` in another unit and step.
+  Arguments record(const std::string& name, const std::string& unit = "m/s2",
+                   const std::string& dt = "0.01") const
+  {
+    return {"--motion", bench_.path(name), "--record-dt", dt, "--record-unit", unit};
+  }
+
+private:
+  Bench bench_;
+};
+
+std::vector<double> values_of(const std::string& text)
+{
+  std::istringstream lines(text);
+  std::vector<double> values;
+  for (double value = 0; lines >> value;) values.push_back(value);
+  return values;
+}
+
+/// The horizontal part of a series of /motion.
+std::vector<double> horizontal(const fs::path& history, const std::string& name)
+{
+  std::vector<double> part;
+  const std::vector<double> both = open_complete(history).read_doubles("motion/" + name);
+  for (std::size_t i = 0; i < both.size(); i += 2) part.push_back(both[i]);
+  return part;
+}
+
+double greatest(const std::vector<double>& values, std::size_t count)
+{
+  double most = 0;
+  for (std::size_t i = 0; i < std::min(count, values.size()); ++i) most = std::max(most, std::abs(values[i]));
+  return most;
+}
+} // namespace
+
+TEST_CASE("the history holds the upgoing acceleration at the record's step, whatever the gauges'", "[stages]")
+{
+  const Block b;
+  const auto record = values_of(contents(b / "shake.txt"));
+  for (const std::string every : {"0.01 s", "0.1 s", "0.013 s"})
+  {
+    REQUIRE(b.run(every, {"--set", "seismic.duration=1.5 s", "--set", "output.gauges.every=" + every}).code ==
+            0);
+    const fs::path history = b / every / "history.h5";
+    const auto time = open_complete(history).read_doubles("motion/time");
+    const auto acceleration = horizontal(history, "upgoing_acceleration"),
+               velocity = horizontal(history, "upgoing_velocity");
+    REQUIRE(time.size() == 151);
+    double v = 0; // trapezoidal, of half the record
+    for (std::size_t i = 0; i < time.size(); ++i)
+    {
+      const double a = i < record.size() ? 0.5 * record[i] : 0;
+      if (i > 0 && i < record.size()) v += 0.005 * (a + 0.5 * record[i - 1]);
+      CHECK(time[i] == Approx(0.01 * double(i)));
+      REQUIRE(acceleration[i] == Approx(a).margin(1e-12));
+      REQUIRE(velocity[i] == Approx(v).margin(1e-12));
+    }
+  }
+  CHECK(open_complete(b / "0.1 s/history.h5").attribute_string("recorded_as", "motion") == "outcrop");
+}
+
+TEST_CASE("two records of different steps are both held sample by sample", "[stages]")
+{
+  const Block b;
+  put(b / "up.txt", sine(3, 5)); // as 4 ms: 0.48 s
+  REQUIRE(b.run("out", {"--motion", b / "shake.txt", "--vertical", b / "up.txt", "--record-dt", "0.004",
+                        "--record-unit", "m/s2"})
+              .code == 0);
+  put(b / "case.yaml", block + "profiles: {both: {seismic.motion.vertical: {file: up.txt, format: column, "
+                               "dt: 0.004 s, unit: m/s2}}}\n");
+  const Ending ending = b.run("both", {"--profile", "both"});
+  INFO(ending.said);
+  REQUIRE(ending.code == 0);
+  const h5::File history = open_complete(b / "both/history.h5");
+  const auto time = history.read_doubles("motion/time"),
+             a = history.read_doubles("motion/upgoing_acceleration");
+  CHECK(time[1] == Approx(0.002));
+  const auto across = values_of(contents(b / "shake.txt")), up = values_of(contents(b / "up.txt"));
+  for (std::size_t i = 0; i <= 60; ++i) REQUIRE(a[2 * 5 * i] == Approx(0.5 * across[i]).margin(1e-12));
+  for (std::size_t i = 0; i <= 120; ++i) REQUIRE(a[2 * 2 * i + 1] == Approx(0.5 * up[i]).margin(1e-12));
+}
+
+TEST_CASE("a run reports what it applies of a record that goes on longer, and warns", "[stages]")
+{
+  const Block b;
+  const auto record = values_of(contents(b / "shake.txt"));
+  const Ending cut_short = b.run("cut", {"--set", "seismic.duration=0.4 s"});
+  REQUIRE(cut_short.code == 0);
+  const auto motion = b.summary("cut")["motion"]["horizontal"];
+  CHECK(motion["applied"]["pga"].get<double>() == Approx(greatest(record, 41)));
+  CHECK(motion["corrected"]["pga"].get<double>() == Approx(greatest(record, 121)));
+  CHECK(2 * greatest(horizontal(b / "cut/history.h5", "upgoing_acceleration"), 1000) ==
+        Approx(motion["applied"]["pga"].get<double>()).epsilon(1e-12));
+  double within = 0, all = 0; // trapezoidal: ends are 0 or half
+  for (std::size_t i = 1; i < record.size(); ++i)
+  {
+    const double piece = record[i - 1] * record[i - 1] + record[i] * record[i];
+    all += piece;
+    if (i <= 40) within += piece;
+  }
+  CHECK(motion["arias_share_beyond_end"].get<double>() == Approx(1 - within / all));
+  CHECK_THAT(b.summary("cut")["warnings"].dump(),
+             Contains("beyond the end of the run at 0.4 s") && Contains("record + 10 s"));
+  CHECK_THAT(cut_short.said,
+             Contains("as applied until 0.4 s: PGA") && Contains("beyond the end of the run"));
+  REQUIRE(b.run("whole", {"--set", "seismic.duration=1.3 s"}).code == 0);
+  CHECK_THAT(b.summary("whole")["warnings"].dump(), !Contains("beyond the end") && !Contains("correction"));
+  CHECK(b.summary("whole")["motion"]["horizontal"]["applied"]["pga"].get<double>() ==
+        Approx(greatest(record, 121)));
+}
+
+TEST_CASE("a run that goes on for some time after its record follows the record it is given", "[stages]")
+{
+  const Block b;
+  put(b / "long.txt", contents(b / "shake.txt") + contents(b / "shake.txt"));
+  const Arguments after{"--set", "seismic.duration=record + 0.3 s"};
+  REQUIRE(b.run("own", after).code == 0);
+  CHECK(b.summary("own")["time"].get<double>() == Approx(1.5));
+  Arguments other = b.record("long.txt");
+  other.insert(other.end(), after.begin(), after.end());
+  REQUIRE(b.run("long", other).code == 0);
+  CHECK(b.summary("long")["time"].get<double>() == Approx(2.71));
+  other[0] = "--vertical"; // beside the case's own, which is shorter
+  REQUIRE(b.run("both", other).code == 0);
+  CHECK(b.summary("both")["time"].get<double>() == Approx(2.71));
+  const Ending same = b.run("own", {"--set", "seismic.duration=1.5 s"});
+  CHECK(same.code == 0);
+  CHECK_THAT(same.said, Contains("finished already"));
+  CHECK(b.run("own", {"--set", "seismic.duration=record + 0.4 s"}).code == 73);
+  const Ending check = b.run("x", {"--check", "--set", "seismic.duration=record"});
+  CHECK(check.code == 0);
+  CHECK_THAT(check.said, Contains("for 1.2 s"));
+}
+
+TEST_CASE("the end of a run is a frame and a sample of the slide, whatever their intervals", "[stages]")
+{
+  const Block b;
+  REQUIRE(b.run("out", {"--set", "seismic.duration=0.57 s"}).code == 0);
+  const auto series = nlohmann::json::parse(contents(b / "out/frames.hdf.series"));
+  CHECK(series["files"].size() == 4); // 0, 0.25, 0.5 and the end
+  CHECK(series["files"].back()["time"].get<double>() == Approx(0.57));
+  CHECK(open_complete(b / "out/history.h5").read_doubles("slide/time").back() == Approx(0.57));
+  REQUIRE(b.run("even", {"--set", "seismic.duration=0.5 s"}).code == 0);
+  CHECK(nlohmann::json::parse(contents(b / "even/frames.hdf.series"))["files"].size() == 3);
+}
+
+TEST_CASE("a folder belongs to the motion as applied, not to the name of its record", "[stages]")
+{
+  const Block b;
+  put(b / "copy.txt", contents(b / "shake.txt"));
+  REQUIRE(b.run("a").code == 0);
+  const Ending copy = b.run("a", b.record("copy.txt"));
+  CHECK(copy.code == 0);
+  CHECK_THAT(copy.said, Contains("finished already"));
+  for (const Arguments& other :
+       {b.record("copy.txt", "gal"), b.record("copy.txt", "m/s2", "0.02"), Arguments{"--scale", "2"},
+        Arguments{"--set", "seismic.motion.recorded_as=upgoing"},
+        Arguments{"--set", "seismic.motion.baseline=cubic"},
+        Arguments{"--set", "seismic.motion.horizontal.unit=gal"}})
+  {
+    const Ending ending = b.run("a", other);
+    INFO(other[0] << " " << other[1] << "\n" << ending.said);
+    CHECK(ending.code == 73);
+    CHECK_THAT(ending.said, Contains("motion.horizontal"));
+  }
+  const Ending ended = b.run("a", {"--set", "seismic.motion.end=0.5 s"});
+  CHECK(ended.code == 73);
+  CHECK_THAT(ended.said, Contains("seismic.motion.end"));
+}
+
+TEST_CASE("a motion that is ended is reported as it fades", "[stages]")
+{
+  const Block b;
+  REQUIRE(b.run("out", {"--set", "seismic.motion.end=0.55 s", "--set", "seismic.duration=1.3 s"}).code == 0);
+  const auto motion = b.summary("out")["motion"]["horizontal"];
+  const auto a = horizontal(b / "out/history.h5", "upgoing_acceleration");
+  CHECK(motion["applied"]["pga"].get<double>() == Approx(2 * greatest(a, a.size())).epsilon(1e-12));
+  CHECK(motion["applied"]["pga"].get<double>() < 0.9 * motion["corrected"]["pga"].get<double>());
+  CHECK(motion["arias_share_beyond_end"].get<double>() == 0);
+  for (std::size_t i = 56; i < a.size(); ++i) REQUIRE(a[i] == Approx(0).margin(1e-12));
+}
+
+TEST_CASE("a fixed base applies no motion, reports none, and says so if one is given", "[stages]")
+{
+  const Block b;
+  const std::string fixed = "seismic.base.kind=fixed";
+  const Ending given = b.run("given", {"--set", fixed});
+  REQUIRE(given.code == 0);
+  CHECK_THAT(given.said, Contains("fixed base takes no motion") && !Contains("PGA"));
+  CHECK(greatest(horizontal(b / "given/history.h5", "upgoing_velocity"), 1000) == 0);
+  CHECK(b.summary("given")["motion"].empty());
+  std::string without = block;
+  without.erase(without.find("  motion:"), without.find("output:") - without.find("  motion:"));
+  put(b / "case.yaml", without);
+  const Ending none = b.run("none", {"--set", fixed});
+  REQUIRE(none.code == 0);
+  CHECK_THAT(none.said, !Contains("fixed base takes no motion"));
+  const Ending relative = b.run("x", {"--set", fixed, "--set", "seismic.duration=record + 10 s"});
+  CHECK(relative.code == 65);
+  CHECK_THAT(relative.said, Contains("a fixed base takes none") && Contains("'24 s'"));
+}
+
+TEST_CASE("what of a motion cannot be is refused, and nothing is ever not a number", "[stages]")
+{
+  const Block b;
+  const Ending scaled = b.run("x", {"--scale", "1e300"});
+  CHECK(scaled.code == 65);
+  CHECK_THAT(scaled.said, Contains("scale of 1e+300") && !Contains("nan") && !Contains("inf "));
+  const Ending slow = b.run("x", b.record("shake.txt", "m/s2", "1e300"));
+  CHECK(slow.code == 65);
+  CHECK_THAT(slow.said, Contains("time step of 1e+300 s") && !Contains("nan"));
+  const Ending fine = b.run("x", {"--check", "--set", "seismic.motion.horizontal.dt=1e-12 s"});
+  CHECK(fine.code == 65);
+  CHECK_THAT(fine.said, Contains("resample"));
+  const Ending nil = b.run("nil", {"--scale", "0"});
+  CHECK(nil.code == 0);
+  CHECK_THAT(nil.said, Contains("the scale is 0") && !Contains("nan"));
+  CHECK_THAT(contents(b / "nil/summary.json"), Contains("the scale is 0"));
+  const Ending alone = b.run("x", {"--record-unit", "gal"});
+  CHECK(alone.code == 64);
+  CHECK_THAT(alone.said, Contains("--motion"));
+}
