@@ -9,6 +9,8 @@ namespace mpm
 {
 namespace
 {
+constexpr double no_motion = 1e-6; // a factor below which a record is no earthquake
+
 struct Source
 {
   Record record;
@@ -52,6 +54,9 @@ std::optional<GroundMotion> load(Session& session, const std::string& component,
   const MotionSettings& settings = session.scene.seismic.motion;
   MotionProcessing processing = settings.processing;
   processing.scale = source->scale * options.scale;
+  if (std::abs(processing.scale) < no_motion)
+    session.log.warn("{} motion: is scaled by {} (--scale times the case's scale): it is no earthquake",
+                     component, processing.scale);
   const Source read_source = read(*source);
   const Record& record = read_source.record;
   GroundMotion result;
