@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <charconv>
+#include <limits>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 namespace mpm
 {
@@ -161,19 +163,20 @@ bool is_map(const YamlNode& node, const std::string& wanted, Problems& problems)
   return false;
 }
 
+/// Letters to change, add, leave out or exchange with their neighbour.
 int edit_distance(std::string_view a, std::string_view b)
 {
-  std::vector<int> row(b.size() + 1);
+  std::vector<int> before, last, row(b.size() + 1);
   std::iota(row.begin(), row.end(), 0);
   for (std::size_t i = 1; i <= a.size(); ++i)
   {
-    int diagonal = row[0];
+    before = std::exchange(last, row);
     row[0] = static_cast<int>(i);
     for (std::size_t j = 1; j <= b.size(); ++j)
     {
-      const int changed = diagonal + (a[i - 1] != b[j - 1]);
-      diagonal = row[j];
-      row[j] = std::min({changed, row[j] + 1, row[j - 1] + 1});
+      row[j] = std::min({last[j - 1] + (a[i - 1] != b[j - 1]), row[j - 1] + 1, last[j] + 1});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        row[j] = std::min(row[j], before[j - 2] + 1);
     }
   }
   return row.back();
@@ -307,12 +310,13 @@ std::vector<std::pair<std::string, std::string>> flattened(const YamlNode& root)
 std::string nearest(std::string_view wrong, const std::vector<std::string>& names)
 {
   std::string best;
-  int least = std::max(1, static_cast<int>(wrong.size()) / 3) + 1;
+  int least = std::numeric_limits<int>::max();
   for (const std::string& name : names)
   {
     const bool part = wrong.size() > 2 && (name.starts_with(wrong) || wrong.starts_with(name));
     const int distance = part ? 1 : edit_distance(wrong, name);
-    if (distance >= least) continue;
+    const int most = std::max(1, static_cast<int>(std::max(wrong.size(), name.size())) / 3);
+    if (distance > most || distance >= least) continue;
     least = distance;
     best = name;
   }

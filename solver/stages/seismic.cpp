@@ -258,13 +258,27 @@ private:
   FlipBlend flip_;
 };
 
+/// A motion asked for on the command line is not to be left out; one of the case is warned of.
+void refuse_motion_of_fixed_base(Session& session)
+{
+  if (session.scene.seismic.base != BaseKind::fixed) return;
+  const Options& options = session.options;
+  if (!options.motion.empty() || !options.vertical.empty() || options.scale != 1)
+    throw Error(exit_code::usage,
+                "mpm-seismic: --motion, --vertical and --scale: seismic.base.kind is fixed, "
+                "and such a base takes no motion; leave them out, or make it compliant");
+  if (session.scene.seismic.motion.horizontal || session.scene.seismic.motion.vertical)
+    session.log.warn("seismic.base: a fixed base takes no motion: the record is not applied");
+}
+
 int run_seismic(Session& session)
 {
   const Case& scene = session.scene;
   const Options& options = session.options;
   if (scene.seismic.duration <= 0)
     throw Error(exit_code::bad_input, scene.path.string() + ": has no seismic section; nothing to shake");
-  if (options.from.empty() && scene.statics.gravity != 0)
+  refuse_motion_of_fixed_base(session);
+  if (options.from.empty() && scene.statics.gravity != 0 && !options.check)
     throw Error(exit_code::usage, "mpm-seismic: --from is missing: give the final.h5 of mpm-static");
 
   if (options.fresh && !options.from.empty() &&

@@ -2,10 +2,7 @@
 
 #include "io/checkpoint.hpp"
 #include "io/signals.hpp"
-#include "io/units.hpp"
 #include "solver/mpm/parallel.hpp"
-
-#include <CLI/CLI.hpp>
 
 #include <cmath>
 #include <iostream>
@@ -18,73 +15,9 @@ constexpr std::string_view checkpoint_schema = "seismpm-checkpoint/1";
 constexpr double courant_limit = 0.7;    // beyond it the step is shortened (METHODS section 7),
 constexpr double stability_limit = 0.78; // or beyond this one in a case that starts that fast
 
-/// "2h", "90 min", "1800 s", in s.
-double parse_wall_time(std::string text)
-{
-  const std::size_t unit = text.find_first_not_of("0123456789.");
-  if (unit != std::string::npos && unit > 0 && text[unit] != ' ') text.insert(unit, " ");
-  const Quantified time = parse_quantity(text, Dimension::time);
-  if (time.problem.empty() && time.value > 0) return time.value;
-  throw Error(exit_code::usage, "--max-wall: '" + text + "' is no time; write 2h, 90min or 1800s");
-}
-
 std::string version_text(const std::string& program)
 {
   return fmt::format("{} {} ({})\nbuild: {}", program, SEISMPM_VERSION, SEISMPM_GIT, SEISMPM_BUILD);
-}
-
-/// Fills `options`; returns an exit code when the command line already answers everything.
-std::optional<int> parse(int argc, char** argv, Options& options)
-{
-  const bool seismic = options.program == "mpm-seismic";
-  CLI::App app(seismic ? "Shakes a slope from its static state, and follows the slide."
-                       : "Finds the static state of a slope under gravity.",
-               options.program);
-  std::string wall;
-  bool quiet = false, verbose = false;
-  app.add_option("CASE", options.case_file, "case file (YAML)")->required();
-  app.add_option("--out", options.out, "output folder");
-  if (seismic)
-  {
-    app.add_option("--from", options.from, "final.h5 of the static stage");
-    app.add_option("--motion", options.motion, "record instead of the case's horizontal one");
-    app.add_option("--vertical", options.vertical, "record instead of the case's vertical one");
-    app.add_option("--record-dt", options.record_dt, "time step in s of a --motion that does not tell it");
-    app.add_option("--record-unit", options.record_unit,
-                   "unit of a --motion that does not tell it (g, m/s2, gal)");
-    app.add_option("--scale", options.scale, "factor on the motion");
-  }
-  app.add_flag("--check", options.check, "validate and predict the cost; run nothing");
-  app.add_option("--threads", options.threads, "threads (default: OMP_NUM_THREADS, else all)")
-      ->check(CLI::Range(1, 4096));
-  app.add_option("--profile", options.profile, "apply one of the case's profiles; --set goes on top");
-  app.add_option("--set", options.overrides, "key.path=value: override a key of the case")
-      ->expected(1)
-      ->take_all();
-  app.add_option("--max-wall", wall, "stop with a checkpoint after this time (2h, 90min, 1800s)");
-  app.add_flag("--fresh", options.fresh, "start anew in a folder that holds results");
-  app.add_flag("--quiet", quiet, "warnings and errors only");
-  app.add_flag("--verbose", verbose, "details too");
-  app.set_version_flag("--version", version_text(options.program));
-  try
-  {
-    app.parse(argc, argv);
-  }
-  catch (const CLI::Success& end)
-  {
-    return app.exit(end);
-  }
-  catch (const CLI::ParseError& error)
-  {
-    std::cerr << options.program << ": " << error.what() << "; see --help\n";
-    return exit_code::usage;
-  }
-  if (app.count("--max-wall")) options.max_wall = parse_wall_time(wall);
-  if (quiet) options.verbosity = Verbosity::quiet;
-  if (verbose) options.verbosity = Verbosity::verbose;
-  if (options.out.empty() && !options.check)
-    throw Error(exit_code::usage, options.program + ": --out is missing: where shall the results go?");
-  return std::nullopt;
 }
 } // namespace
 
@@ -297,7 +230,7 @@ int run_program(int argc, char** argv, const std::string& name, int (*stage)(Ses
   install_signal_handlers();
   try
   {
-    if (const auto answered = parse(argc, argv, options)) return *answered;
+    if (const auto answered = parse_command_line(argc, argv, options, version_text(name))) return *answered;
     if (options.threads > 0) parallel::use_threads(options.threads);
     Session session(options);
     try

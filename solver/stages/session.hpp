@@ -4,6 +4,7 @@
 #include "io/files.hpp"
 #include "io/log.hpp"
 #include "io/run_folder.hpp"
+#include "solver/stages/command_line.hpp"
 #include "solver/stages/model.hpp"
 
 #include <chrono>
@@ -11,24 +12,6 @@
 
 namespace mpm
 {
-/// The command line of both programs.
-struct Options
-{
-  std::string program; ///< mpm-static or mpm-seismic
-  std::string command; ///< as it was typed
-  std::filesystem::path case_file, out, from;
-  std::string motion, vertical; ///< records that replace the case's
-  double record_dt = NAN;       ///< s, of a record on the command line that does not tell it
-  std::string record_unit;      ///< likewise
-  double scale = 1;
-  std::string profile; ///< one of the case's profiles; empty: none
-  std::vector<std::string> overrides;
-  int threads = 0;     ///< 0: as many as the machine has
-  double max_wall = 0; ///< s, 0: no limit
-  bool check = false, fresh = false;
-  Verbosity verbosity = Verbosity::normal;
-};
-
 /// Step counter and time: t = t0 + (k - k0) dt, so that no rounding piles up.
 struct Clock
 {

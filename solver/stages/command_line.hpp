@@ -1,0 +1,36 @@
+#pragma once
+// The command line of both programs.
+
+#include "io/log.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace mpm
+{
+/// What the command line asks for.
+struct Options
+{
+  std::string program; ///< mpm-static or mpm-seismic
+  std::string command; ///< as it was typed
+  std::filesystem::path case_file, out, from;
+  std::string motion, vertical; ///< records that replace the case's
+  double record_dt = NAN;       ///< s, of a record on the command line that does not tell it
+  std::string record_unit;      ///< likewise
+  double scale = 1;
+  std::string profile; ///< one of the case's profiles; empty: none
+  std::vector<std::string> overrides;
+  int threads = 0;     ///< 0: as many as the machine has
+  double max_wall = 0; ///< s, 0: no limit
+  bool check = false, fresh = false;
+  Verbosity verbosity = Verbosity::normal;
+};
+
+/// Fills `options`, whose `program` says which options there are. Returns an exit code when the command line
+/// already answers everything (--help, --version); throws Error(usage) where it cannot be followed as given:
+/// what is unknown, empty, no decimal number, given twice or without what it applies to.
+std::optional<int> parse_command_line(int argc, char** argv, Options& options, const std::string& version);
+} // namespace mpm
