@@ -258,7 +258,7 @@ private:
   FlipBlend flip_;
 };
 
-/// A motion asked for on the command line is not to be left out; one of the case is warned of.
+/// A motion asked for on the command line is not to be left out; load_motion() warns of one of the case.
 void refuse_motion_of_fixed_base(Session& session)
 {
   if (session.scene.seismic.base != BaseKind::fixed) return;
@@ -267,8 +267,6 @@ void refuse_motion_of_fixed_base(Session& session)
     throw Error(exit_code::usage,
                 "mpm-seismic: --motion, --vertical and --scale: seismic.base.kind is fixed, "
                 "and such a base takes no motion; leave them out, or make it compliant");
-  if (session.scene.seismic.motion.horizontal || session.scene.seismic.motion.vertical)
-    session.log.warn("seismic.base: a fixed base takes no motion: the record is not applied");
 }
 
 int run_seismic(Session& session)
