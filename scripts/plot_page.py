@@ -10,7 +10,6 @@ from matplotlib.colors import Normalize
 
 import newmark
 import plot_sections
-import spectrum
 from plot_common import Missing, array, frame_times, group_of, open_history, read_summary, text
 from plot_histories import read_gauges, read_motion, read_outline
 
@@ -81,12 +80,10 @@ def draw_speed(axis, file, trigger):
 
 def draw_motion(axis, file, trigger):
     """Outcrop acceleration (m/s2), twice the upgoing one as applied."""
-    time, velocity = read_motion(file)
+    time, velocity, acceleration = read_motion(file)
     for component in range(velocity.shape[1]):
         if np.any(velocity[:, component]):
-            acceleration, dt = spectrum.acceleration_of(time, 2.0 * velocity[:, component])
-            axis.plot(time[0] + dt * np.arange(len(acceleration)), acceleration, lw=0.6,
-                      label=("horizontal", "vertical")[component])
+            axis.plot(time, 2.0 * acceleration[:, component], lw=0.6, label=("horizontal", "vertical")[component])
             axis.legend(fontsize=6)
     axis.set_title("outcrop acceleration as applied (m/s²)")
     mark_trigger(axis, trigger)
