@@ -78,9 +78,9 @@ def histories(folder, out, heading):
 
 
 def measures(acceleration, velocity, dt):
-    """One line with PGA (g), PGV (m/s), Arias intensity (m/s) and D5-95 (s)."""
-    return (f"PGA {np.abs(acceleration).max() / spectrum.GRAVITY:.3f} g, PGV {np.abs(velocity).max():.3f} m/s, "
-            f"Arias {spectrum.arias_intensity(acceleration, dt):.2f} m/s, "
+    """One line with PGA (g), PGV (m/s), Arias intensity (m/s) and D5-95 (s), as the log has it."""
+    return (f"PGA {np.abs(acceleration).max() / spectrum.GRAVITY:#.3g} g, PGV {np.abs(velocity).max():#.3g} m/s, "
+            f"Arias {spectrum.arias_intensity(acceleration, dt):#.3g} m/s, "
             f"D5-95 {spectrum.significant_duration(acceleration, dt):.1f} s")
 
 

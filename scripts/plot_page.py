@@ -10,6 +10,7 @@ from matplotlib.colors import Normalize
 
 import newmark
 import plot_sections
+import spectrum
 from plot_common import Missing, array, frame_times, group_of, open_history, read_summary, text
 from plot_histories import read_gauges, read_motion, read_outline
 
@@ -115,6 +116,10 @@ def measures(summary):
             ("greatest velocity, point", peak_text(slide["point_velocity"], "m/s")),
             ("surface rose most", f"{slide['outline_rise']['height']:.2f} m at x = {value(slide['outline_rise']['x'], 'm', 1)}"),
             ("surface fell most", f"{slide['outline_fall']['height']:.2f} m at x = {value(slide['outline_fall']['x'], 'm', 1)}")]
+    for component, motion in summary.get("motion", {}).items():
+        m = motion["applied"]
+        rows.append((f"{component} motion as applied", f"PGA {m['pga'] / spectrum.GRAVITY:#.3g} g, PGV {m['pgv']:#.3g} m/s, "
+                     f"Arias {m['arias']:#.3g} m/s, D5-95 {m['d5_95']:.1f} s"))
     ended = summary.get("motion_ended")
     return rows + ([("motion ended", f"{ended:.2f} s")] if ended is not None else [])
 

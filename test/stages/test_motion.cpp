@@ -267,6 +267,10 @@ TEST_CASE("what of a motion cannot be is refused, and nothing is ever not a numb
   const Ending slow = b.run("x", b.record("shake.txt", "m/s2", "1e300"));
   CHECK(slow.code == 65);
   CHECK_THAT(slow.said, Contains("time step of 1e+300 s") && !Contains("nan"));
+  const Ending endless = b.run("x", {"--check", "--set", "seismic.motion.horizontal.dt=1e100 s", "--set",
+                                     "seismic.duration=record + 10 s"});
+  CHECK(endless.code == 65);
+  CHECK_THAT(endless.said, Contains("seismic.duration") && Contains("mend the time step"));
   const Ending fine = b.run("x", {"--check", "--set", "seismic.motion.horizontal.dt=1e-12 s"});
   CHECK(fine.code == 65);
   CHECK_THAT(fine.said, Contains("resample"));
@@ -277,4 +281,21 @@ TEST_CASE("what of a motion cannot be is refused, and nothing is ever not a numb
   const Ending alone = b.run("x", {"--record-unit", "gal"});
   CHECK(alone.code == 64);
   CHECK_THAT(alone.said, Contains("--motion"));
+}
+
+TEST_CASE("waves that lie beyond the end of the run are not looked for in its grid", "[stages]")
+{
+  const Block b;
+  std::string calm_then_quick = sine(3, 2);
+  calm_then_quick += sine(12, 40);
+  put(b / "shake.txt", calm_then_quick);
+  const auto share_above = [&](const std::string& out, const std::string& duration)
+  {
+    REQUIRE(b.run(out, {"--set", "seismic.duration=" + duration}).code == 0);
+    const auto waves = b.summary(out)["resolution"]["materials"]["rock"]["S"];
+    CHECK(waves["carried_to"].get<double>() < 20);
+    return waves["arias_share_above"].get<double>();
+  };
+  CHECK(share_above("calm", "1.2 s") < 0.2);   // a burst of 2 Hz
+  CHECK(share_above("whole", "record") > 0.8); // 16 times its intensity at 40 Hz
 }
