@@ -252,6 +252,11 @@ Motion load_motion(Session& session)
     wave.fade = planned_fade(settings);
     settle_duration(session, wave);
     check_samples(session, wave);
+    if (settings.end == MotionEnd::time && settings.end_time > seismic.duration)
+      session.log.warn(
+          "seismic.motion.end: {:g} s is after the end of the run at {:g} s: the motion is not ended, "
+          "but cut there",
+          settings.end_time, seismic.duration);
     if (options.scale != 1) motion.title += fmt::format(" x {}", options.scale);
   }
   if (wave.horizontal) report_applied(session, "horizontal", *wave.horizontal, motion.facts["horizontal"]);

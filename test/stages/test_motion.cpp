@@ -236,6 +236,8 @@ TEST_CASE("a motion that is ended is reported as it fades", "[stages]")
   CHECK(motion["applied"]["pga"].get<double>() < 0.9 * motion["corrected"]["pga"].get<double>());
   CHECK(motion["arias_share_beyond_end"].get<double>() == 0);
   for (std::size_t i = 56; i < a.size(); ++i) REQUIRE(a[i] == Approx(0).margin(1e-12));
+  const Ending late = b.run("late", {"--set", "seismic.motion.end=0.7 s"});
+  CHECK_THAT(late.said, Contains("seismic.motion.end: 0.7 s is after the end of the run at 0.6 s"));
 }
 
 TEST_CASE("a fixed base applies no motion, reports none, and says so if one is given", "[stages]")
