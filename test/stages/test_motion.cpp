@@ -51,6 +51,10 @@ public:
     all.insert(all.end(), more.begin(), more.end());
     return bench_.run("mpm-seismic", all);
   }
+  Ending program(const std::string& name, const Arguments& arguments) const
+  {
+    return bench_.run(name, arguments);
+  }
   nlohmann::json summary(const std::string& out) const
   {
     return nlohmann::json::parse(contents(bench_ / out / "summary.json"));
@@ -300,4 +304,19 @@ TEST_CASE("waves that lie beyond the end of the run are not looked for in its gr
   };
   CHECK(share_above("calm", "1.2 s") < 0.2);   // a burst of 2 Hz
   CHECK(share_above("whole", "record") > 0.8); // 16 times its intensity at 40 Hz
+}
+
+TEST_CASE("the slope that is shipped applies its whole motion, in its quick profile too", "[stages]")
+{
+  const Block b;
+  for (const Arguments& profile : {Arguments{}, Arguments{"--profile", "quick"}})
+  {
+    Arguments arguments{
+        SOURCE_DIR "/cases/slope/case.yaml", "--check", "--from", "none.h5", "--set", "grid.spacing=2 m"};
+    arguments.insert(arguments.end(), profile.begin(), profile.end());
+    const Ending ending = b.program("mpm-seismic", arguments);
+    CHECK(ending.code == 0);
+    CHECK_THAT(ending.said,
+               Contains("PGA 0.250 g at 8.68 s") && Contains("for 49.99 s") && !Contains("beyond the end"));
+  }
 }
