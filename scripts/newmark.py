@@ -1,12 +1,16 @@
 """A rigid-block (Newmark) analysis beside a run: scripts/newmark RUN_FOLDER [options].
 
-The block is shaken by the outcrop motion as the run applied it (twice the upgoing velocity of history.h5).
+The block is shaken by the outcrop motion as the run applied it (twice the upgoing acceleration of history.h5, at the step of
+the record), under the gravity of the run's case.
 Without --angle it is the ground above the circular slip surface of least yield acceleration, which is sought in the
 run's undeformed ground with its von Mises strengths (shear strength q / sqrt 3); the block turns on the circle as a rigid
-body, and its strength falls with slip as the case says. With --angle it is a block on a plane of that inclination.
+body, and its strength falls with slip as the case says. With --angle it is a block on a plane of that inclination, whose friction
+is given or, with --material, is what a slip_weakening material of the case mobilises.
 Results go to RUN_FOLDER/newmark.json, where plot-run finds them, and to pictures/newmark.png.
 """
+import hashlib
 import json
+import re
 import sys
 from dataclasses import asdict
 from pathlib import Path
@@ -19,12 +23,12 @@ from scipy.spatial import cKDTree
 import plot_common
 import rigid_block
 import slip_circle
-import spectrum
 from plot_common import Missing, Parser, array, group_of, open_history
 from plot_histories import read_motion, read_outline
 
 UNITS = {"Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9, "kg/m3": 1.0, "g/cm3": 1e3, "t/m3": 1e3, "m": 1.0, "cm": 1e-2,
-         "mm": 1e-3, "km": 1e3}
+         "mm": 1e-3, "km": 1e3, "m/s2": 1.0, "cm/s2": 1e-2, "g": rigid_block.STANDARD_GRAVITY, "": 1.0}
+USUAL_GRAVITY = "9.81 m/s2"  # of a case that says none
 DEPARTED = 0.1  # m, beyond which a run counts ground as out of place
 
 
@@ -36,15 +40,18 @@ def parse_arguments():
     parser.add_argument("--uphill", choices=("left", "right"), default="left", help="of the plane; default left")
     parser.add_argument("--yield", dest="yields", type=float, metavar="G", help="yield acceleration in g, for --angle")
     parser.add_argument("--friction", type=float, metavar="MU", help="coefficient of friction, for --angle")
+    parser.add_argument("--material", metavar="NAME",
+                        help="slip_weakening material of the case, instead of --friction, --residual and --slip")
     parser.add_argument("--residual", type=float, metavar="MU", help="friction after the slip of --slip")
     parser.add_argument("--slip", type=float, metavar="M", help="slip (m) over which it weakens")
     parser.add_argument("--weakening", choices=("exponential", "linear"), default="exponential",
                         help="exponential leaves 5 %% of the drop at --slip (default)")
     given = parser.parse_args()
-    if given.angle is not None and (given.yields is None) == (given.friction is None):
-        parser.error("--angle needs either --yield or --friction")
-    if given.angle is None and (given.yields is not None or given.friction is not None):
-        parser.error("--yield and --friction need --angle")
+    strengths_given = sum(part is not None for part in (given.yields, given.friction, given.material))
+    if given.angle is not None and strengths_given != 1:
+        parser.error("--angle needs one of --yield, --friction and --material")
+    if given.angle is None and strengths_given:
+        parser.error("--yield, --friction and --material need --angle")
     if (given.residual is None) != (given.slip is None) or (given.slip is not None and given.friction is None):
         parser.error("--residual and --slip go together, and with --friction")
     return given
@@ -53,10 +60,15 @@ def parse_arguments():
 def outcrop(folder):
     """Times (s) and outcrop acceleration [time, (x, y)] (m/s2) as applied."""
     with open_history(folder) as file:
-        time, velocity = read_motion(file)
-    parts = [spectrum.acceleration_of(time, 2.0 * velocity[:, k]) for k in range(velocity.shape[1])]
-    step = parts[0][1]
-    return time[0] + step * np.arange(len(parts[0][0])), np.stack([part[0] for part in parts], axis=1)
+        time, _, acceleration = read_motion(file)
+    return time, 2.0 * acceleration
+
+
+def run_of(folder):
+    """What tells the run in the folder, as far as it has come, from another one that may have been there before."""
+    with open_history(folder) as file:
+        until = float(read_motion(file)[0][-1])
+    return {"identity": hashlib.sha256((folder / "identity.json").read_bytes()).hexdigest(), "until": until}
 
 
 def settings_of(folder):
@@ -68,8 +80,19 @@ def quantity(settings, key):
     """A setting in SI, None where it is not given."""
     if key not in settings:
         return None
-    number, unit = settings[key].split()
-    return float(number) * UNITS[unit]
+    parts = re.fullmatch(r"([-+]?[0-9.]+(?:[eE][-+]?[0-9]+)?)\s*(.*)", settings[key].strip())
+    unit = parts and parts[2].replace("^", "")
+    if not parts or unit not in UNITS:
+        raise Missing(f"{key} in identity.json is '{settings[key]}', which is no number with a unit")
+    return float(parts[1]) * UNITS[unit]
+
+
+def gravity_of(settings):
+    """The gravity of the run (m/s2)."""
+    gravity = quantity({"static.gravity": USUAL_GRAVITY} | settings, "static.gravity")
+    if gravity <= 0:
+        raise Missing("static.gravity is 0: a block without weight has no friction and does not slide")
+    return gravity
 
 
 def strengths(settings, name):
@@ -81,11 +104,30 @@ def strengths(settings, name):
         raise Missing(f"{key}.model is {settings[f'{key}.model']}: a slip circle is sought in von_mises ground only; "
                       "give --angle and --friction")
     peak = quantity(settings, f"{key}.strength.peak") / np.sqrt(3)
-    residual = (quantity(settings, f"{key}.strength.residual") or np.sqrt(3) * peak) / np.sqrt(3)
+    residual = quantity(settings, f"{key}.strength.residual")
+    residual = peak if residual is None else residual / np.sqrt(3)
     slip = quantity(settings, f"{key}.softening.displacement")
     if residual < peak and slip is None:
         raise Missing(f"{key}.softening gives no displacement; give --angle and --friction")
-    return peak, residual, slip or np.inf
+    return peak, residual, np.inf if slip is None else slip
+
+
+def mobilised_friction(settings, name):
+    """What a band of a slip_weakening material mobilises in simple shear, as a function of slip (m)."""
+    key = f"materials.{name}"
+    model = settings.get(f"{key}.model")
+    if model != "slip_weakening":
+        raise Missing(f"{key} is " + (f"of the model {model}" if model else "no material of the case") +
+                      "; --material takes one of the model slip_weakening")
+    peak, residual, slip = (quantity(settings, f"{key}.{part}")
+                            for part in ("friction.peak", "friction.residual", "critical_slip"))
+    if residual is None or residual >= peak:
+        coefficient = rigid_block.constant(peak)
+    else:
+        coefficient = rigid_block.exponential(peak, residual, slip)
+    if settings.get(f"{key}.match", "mc") == "plane":  # sin(phi) = mu
+        return coefficient
+    return lambda d: coefficient(d) / np.sqrt(1 + coefficient(d) ** 2)  # tan(phi) = mu, a band mobilises sin(phi)
 
 
 def ground_of(folder):
@@ -111,7 +153,8 @@ def ground_of(folder):
         density[part] = quantity(settings, f"materials.{name}.density")
         peak[part], residual[part], length = strengths(settings, name)
         slip = min(slip, length)
-    return slip_circle.Ground(x, surface, bottom, size, density[nearest], peak[nearest]), residual[nearest], slip
+    ground = slip_circle.Ground(x, surface, bottom, size, density[nearest], peak[nearest], gravity_of(settings))
+    return ground, residual[nearest], slip
 
 
 def block_on_circle(folder):
@@ -128,7 +171,7 @@ def block_on_circle(folder):
     peak, last = (circle.radius**2 * force / inertia for force in (circle.resistance, circle.residual))
     strength = rigid_block.linear(peak, last, slip) if last < peak else rigid_block.constant(peak)
     block = rigid_block.Block(np.arctan2(circle.offset, circle.depth), resistance=strength, gain=gain,
-                              radius=circle.radius)
+                              radius=circle.radius, gravity=ground.gravity)
     return block, circle, circle.sense
 
 
@@ -143,12 +186,18 @@ def turning_inertia(ground, circle):
 
 def block_on_plane(given):
     """The block that the command line describes."""
-    angle = np.radians(given.angle)
-    if given.yields is not None:
-        return rigid_block.Block(angle, rigid_block.constant(np.tan(angle + np.arctan(given.yields))))
-    if given.slip is None:
-        return rigid_block.Block(angle, rigid_block.constant(given.friction))
-    return rigid_block.Block(angle, getattr(rigid_block, given.weakening)(given.friction, given.residual, given.slip))
+    settings, angle = settings_of(given.folder), np.radians(given.angle)
+    gravity = gravity_of(settings)
+    if given.material is not None:
+        friction = mobilised_friction(settings, given.material)
+    elif given.yields is not None:
+        yields = given.yields * rigid_block.STANDARD_GRAVITY / gravity
+        friction = rigid_block.constant(np.tan(angle + np.arctan(yields)))
+    elif given.slip is None:
+        friction = rigid_block.constant(given.friction)
+    else:
+        friction = getattr(rigid_block, given.weakening)(given.friction, given.residual, given.slip)
+    return rigid_block.Block(angle, friction, gravity=gravity)
 
 
 def first(time, reached):
@@ -163,8 +212,8 @@ def analyse(folder, block, sense, words, circle=None):
     path = np.unique(slip)
     least = min(block.yield_acceleration(d) for d in path[::max(1, len(path) // 200)])
     every = max(1, round(0.05 / (time[1] - time[0])))
-    return {"block": words, "yield_acceleration": block.yield_acceleration() / rigid_block.GRAVITY,
-            "least_yield_acceleration": least / rigid_block.GRAVITY,
+    return {"block": words, "run": run_of(folder), "yield_acceleration": block.yield_acceleration() / rigid_block.STANDARD_GRAVITY,
+            "least_yield_acceleration": least / rigid_block.STANDARD_GRAVITY,
             "first_slip": first(time, slip > 0), "trigger_time": first(time, slip > DEPARTED),
             "displacement": float(slip[-1]), "greatest_velocity": float(speed.max()),
             "circle": asdict(circle) | {"safety": circle.safety} if circle else None,
@@ -180,9 +229,16 @@ def estimate(folder):
 
 
 def stored_or_estimated(folder):
-    """newmark.json of the folder, or the estimate where there is none."""
+    """newmark.json of the folder, or the estimate where there is none of this run."""
     path = folder / "newmark.json"
-    return json.loads(path.read_text()) if path.exists() else estimate(folder)
+    if not path.exists():
+        return estimate(folder)
+    stored = json.loads(path.read_text())
+    if stored.get("run") == run_of(folder):
+        return stored
+    print(f"newmark: {path} is of another run, or of this one before it went on; it is left out: run scripts/newmark again",
+          file=sys.stderr)
+    return estimate(folder)
 
 
 def lines_of(result):
@@ -215,6 +271,7 @@ def main():
             result = estimate(given.folder)
         else:
             words = f"block on a plane of {given.angle:g} degrees, uphill on the {given.uphill}"
+            words += f", friction of {given.material}" if given.material else ""
             result = analyse(given.folder, block_on_plane(given), 1 if given.uphill == "left" else -1, words)
         (given.folder / "newmark.json").write_text(json.dumps(result, indent=1) + "\n")
         print("\n".join(lines_of(result)))

@@ -19,12 +19,21 @@ def read_gauges(file):
 
 
 def read_motion(file):
-    """Times (s) and upgoing velocity (m/s) [time, component] of the motion as applied."""
+    """Times (s), upgoing velocity (m/s) and acceleration (m/s2) [time, component] of the motion as applied.
+
+    Times are even and no sample of the record lies between them, so that accelerations are linear in between.
+    """
     motion = group_of(file, "motion")
-    time, velocity = array(motion, "time"), array(motion, "upgoing_velocity")
+    time, velocity, acceleration = (array(motion, name) for name in ("time", "upgoing_velocity", "upgoing_acceleration"))
     if len(time) < 4:
         raise Missing("the motion has fewer than four samples")
-    return time, velocity.reshape(len(time), -1)
+    return time, velocity, acceleration
+
+
+def factor_of_record(file):
+    """What makes the record's kind of motion of the upgoing one, and what it is called: twice it is an outcrop's."""
+    kind = text(group_of(file, "motion").attrs.get("recorded_as", "outcrop"))
+    return (1.0, "upgoing motion") if kind == "upgoing" else (2.0, "outcrop motion (2 × upgoing)")
 
 
 def read_outline(file):
@@ -69,23 +78,26 @@ def histories(folder, out, heading):
 
 
 def measures(acceleration, velocity, dt):
-    """One line with PGA (g), PGV (m/s), Arias intensity (m/s) and D5-95 (s)."""
-    return (f"PGA {np.abs(acceleration).max() / spectrum.GRAVITY:.3f} g, PGV {np.abs(velocity).max():.3f} m/s, "
-            f"Arias {spectrum.arias_intensity(acceleration, dt):.2f} m/s, "
+    """One line with PGA (g), PGV (m/s), Arias intensity (m/s) and D5-95 (s), as the log has it."""
+    return (f"PGA {np.abs(acceleration).max() / spectrum.GRAVITY:#.3g} g, PGV {np.abs(velocity).max():#.3g} m/s, "
+            f"Arias {spectrum.arias_intensity(acceleration, dt):#.3g} m/s, "
             f"D5-95 {spectrum.significant_duration(acceleration, dt):.1f} s")
 
 
-def draw_input(axes, time, velocity, components):
-    """Upgoing acceleration, velocity and displacement of the given components, one above the other."""
+def draw_input(axes, motion, components, record):
+    """Upgoing acceleration, velocity and displacement of the given components, one above the other.
+
+    record: factor and name of the record's kind of motion, whose measures are told, as the log and summary.json do.
+    """
+    time, velocity, acceleration = motion
+    dt, (factor, kind) = time[1] - time[0], record
     notes = []
     for component in components:
-        acceleration, dt = spectrum.acceleration_of(time, velocity[:, component])
-        even = time[0] + dt * np.arange(len(acceleration))
-        steady = np.interp(even, time, velocity[:, component])
-        for axis, values in zip(axes, (acceleration, steady, spectrum.integral(steady, dt))):
-            axis.plot(even, values, lw=0.8, color=f"C{component}", label=DIRECTIONS[component])
-        notes.append(f"{'xy'[component]}: {measures(2 * acceleration, 2 * steady, dt)}")
-    axes[0].set_title("upgoing motion as applied; its outcrop (2 × upgoing) has\n" + "\n".join(notes), fontsize=8)
+        a, v = acceleration[:, component], velocity[:, component]
+        for axis, values in zip(axes, (a, v, spectrum.integral(v, dt))):
+            axis.plot(time, values, lw=0.8, color=f"C{component}", label=DIRECTIONS[component])
+        notes.append(f"{'xy'[component]}: {measures(factor * a, factor * v, dt)}")
+    axes[0].set_title(f"upgoing motion as applied; as {kind} it has\n" + "\n".join(notes), fontsize=8)
     for axis, label in zip(axes, ("acceleration (m/s²)", "velocity (m/s)", "displacement (m)")):
         axis.set_ylabel(label)
         axis.grid(alpha=0.3)
@@ -93,12 +105,15 @@ def draw_input(axes, time, velocity, components):
     axes[1].legend(fontsize=8)
 
 
-def draw_spectra(axis, component, time, velocity, others):
-    """5 % pseudo-acceleration spectra (g) of the outcrop motion and of the surface motions, one component."""
+def draw_spectra(axis, component, outcrop, others):
+    """5 % pseudo-acceleration spectra (g) of the outcrop motion and of the surface motions, one component.
+
+    outcrop: acceleration (m/s2) [time, component] and its step (s).
+    """
     periods = spectrum.default_periods()
-    motions = [("outcrop = 2 × upgoing", time, 2.0 * velocity)] + others
-    for k, (label, times, velocities) in enumerate(motions):
-        acceleration, dt = spectrum.acceleration_of(times, velocities[:, component])
+    motions = [("outcrop = 2 × upgoing", outcrop[0][:, component], outcrop[1])]
+    motions += [(label, *spectrum.acceleration_of(time, velocity[:, component])) for label, time, velocity in others]
+    for k, (label, acceleration, dt) in enumerate(motions):
         # Periods the samples cannot resolve are left out.
         shown = periods[periods >= 4.0 * dt]
         style = {"color": "k", "lw": 1.8} if k == 0 else {"lw": 1.0, "ls": "--" if "free field" in label else "-"}
@@ -114,15 +129,15 @@ def draw_spectra(axis, component, time, velocity, others):
 def motion(folder, out, heading):
     """motion.png: the motion as applied; beside it its response spectrum with those of gauges and free field."""
     with open_history(folder) as file:
-        time, velocity = read_motion(file)
-        others = surface_motions(file)
+        time, velocity, acceleration = read_motion(file)
+        record, others = factor_of_record(file), surface_motions(file)
     components = [k for k in range(velocity.shape[1]) if np.any(velocity[:, k])] or [0]
     figure = plt.figure(figsize=(WIDTH * 1.25, 7.5), layout="constrained")
     left, right = figure.subfigures(1, 2, width_ratios=(1.1, 1.0))
-    draw_input(left.subplots(3, 1, sharex=True), time, velocity, components)
+    draw_input(left.subplots(3, 1, sharex=True), (time, velocity, acceleration), components, record)
     axes = right.subplots(len(components), 1, sharex=True, squeeze=False)[:, 0]
     for axis, component in zip(axes, components):
-        draw_spectra(axis, component, time, velocity, others)
+        draw_spectra(axis, component, (2.0 * acceleration, time[1] - time[0]), others)
     axes[-1].set_xlabel("period (s)")
     axes[0].legend(fontsize=8)
     save(figure, out / "motion.png", heading)

@@ -81,12 +81,10 @@ def draw_speed(axis, file, trigger):
 
 def draw_motion(axis, file, trigger):
     """Outcrop acceleration (m/s2), twice the upgoing one as applied."""
-    time, velocity = read_motion(file)
+    time, velocity, acceleration = read_motion(file)
     for component in range(velocity.shape[1]):
         if np.any(velocity[:, component]):
-            acceleration, dt = spectrum.acceleration_of(time, 2.0 * velocity[:, component])
-            axis.plot(time[0] + dt * np.arange(len(acceleration)), acceleration, lw=0.6,
-                      label=("horizontal", "vertical")[component])
+            axis.plot(time, 2.0 * acceleration[:, component], lw=0.6, label=("horizontal", "vertical")[component])
             axis.legend(fontsize=6)
     axis.set_title("outcrop acceleration as applied (m/s²)")
     mark_trigger(axis, trigger)
@@ -118,6 +116,10 @@ def measures(summary):
             ("greatest velocity, point", peak_text(slide["point_velocity"], "m/s")),
             ("surface rose most", f"{slide['outline_rise']['height']:.2f} m at x = {value(slide['outline_rise']['x'], 'm', 1)}"),
             ("surface fell most", f"{slide['outline_fall']['height']:.2f} m at x = {value(slide['outline_fall']['x'], 'm', 1)}")]
+    for component, motion in summary.get("motion", {}).items():
+        m = motion["applied"]
+        rows.append((f"{component} motion as applied", f"PGA {m['pga'] / spectrum.GRAVITY:#.3g} g, PGV {m['pgv']:#.3g} m/s, "
+                     f"Arias {m['arias']:#.3g} m/s, D5-95 {m['d5_95']:.1f} s"))
     ended = summary.get("motion_ended")
     return rows + ([("motion ended", f"{ended:.2f} s")] if ended is not None else [])
 

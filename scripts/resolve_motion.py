@@ -26,15 +26,20 @@ def read(path):
         lines = file.read().splitlines()
     for k, line in enumerate(lines[:10]):
         count = re.search(r"NPTS\s*=\s*(\d+)", line, re.IGNORECASE) or re.match(r"\s*(\d+)\s+[\d.]+\s+NPTS", line)
-        step = re.search(r"DT\s*=\s*([\d.E+-]+)", line, re.IGNORECASE) or re.match(r"\s*\d+\s+([\d.]+)\s+NPTS", line)
+        step = re.search(r"DT\s*=\s*([\d.E+-]+)\s*([A-Z]*)", line, re.IGNORECASE) \
+            or re.match(r"\s*\d+\s+([\d.]+)\s+NPTS()", line)
         if count and step:
             break
     else:
         raise BadRecord(f"{path}: no header line with NPTS and DT; give PEER's .AT2, .VT2 or .DT2")
+    if step[2].upper() not in ("", "S", "SEC", "SECS", "SECOND", "SECONDS"):
+        raise BadRecord(f"{path}: DT is in {step[2]}; write it in SEC")
     try:
         values = numpy.array(" ".join(lines[k + 1 :]).split(), dtype=float)
     except ValueError as error:
         raise BadRecord(f"{path}: {error}") from error
+    if not numpy.isfinite(values).all():
+        raise BadRecord(f"{path}: value {int(numpy.argmin(numpy.isfinite(values))) + 1} is no finite number")
     if values.size < int(count[1]):
         raise BadRecord(f"{path}: the header tells of {count[1]} values, there are {values.size}")
     return lines[:k], values[: int(count[1])], float(step[1])
@@ -58,7 +63,7 @@ def cut(values, step, begin, end):
 def write(path, header, values, step):
     temporary = path + ".part"
     with open(temporary, "w", encoding="ascii") as file:
-        file.write("\n".join(header) + f"\nNPTS= {values.size:6d}, DT= {step:.6f} SEC\n")
+        file.write("\n".join(header) + f"\nNPTS= {values.size:6d}, DT= {step:.9g} SEC\n")
         for k in range(0, values.size, 5):
             file.write("".join(f"{value:15.7E}" for value in values[k : k + 5]) + "\n")
     os.replace(temporary, path)
@@ -83,7 +88,9 @@ def make(options):
     header, values, step = read(options.east)
     note = os.path.basename(options.east)
     if options.north:
-        _, north, other_step = read(options.north)
+        other_header, north, other_step = read(options.north)
+        if header[-1:] != other_header[-1:]:  # quantity and unit
+            raise BadRecord(f"the records differ: '{' '.join(header[-1:])}' and '{' '.join(other_header[-1:])}'")
         if step != other_step or values.size != north.size:
             raise BadRecord(f"the records differ: {values.size} values of {step} s and {north.size} of {other_step} s")
         values = resolve(values, north, options.azimuth)

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-GRAVITY = 9.80665  # m/s2
+STANDARD_GRAVITY = 9.80665  # m/s2, 1 g
 
 
 def constant(value):
@@ -39,7 +39,7 @@ class Block:
     resistance: object = field(default_factory=lambda: constant(0.0))  # m/s2, of slip
     gain: float = 1.0
     radius: float = np.inf  # m
-    gravity: float = GRAVITY
+    gravity: float = STANDARD_GRAVITY  # m/s2, that the block feels
 
     def acceleration(self, slip, ground):
         """d'' (m/s2) while it slides, for the ground's acceleration (a_x, a_y)."""

@@ -8,7 +8,7 @@ from itertools import product
 
 import numpy as np
 
-GRAVITY = 9.80665  # m/s2
+STANDARD_GRAVITY = 9.80665  # m/s2, 1 g
 LEAST_COLUMNS = 6  # that a circle must cut
 LEAST_DEPTH = 0.3  # of the radius, of the centre of mass below the centre: less is no slide but a block that topples
 
@@ -23,6 +23,7 @@ class Ground:
     size: float
     density: np.ndarray  # [column, cell from the bottom up]
     strength: np.ndarray
+    gravity: float = STANDARD_GRAVITY  # m/s2
 
     def __post_init__(self):
         heights = self.bottom + self.size * np.arange(self.density.shape[1] + 1)
@@ -46,18 +47,19 @@ class Circle:
     depth: float  # m, of the centre of mass below the centre
     resistance: float  # N/m, strength times length of the arc
     ends: tuple  # m, x of the first and the last column
+    gravity: float  # m/s2
     residual: float = np.nan
 
     @property
     def safety(self):
         """Factor of safety without shaking."""
-        driving = GRAVITY * self.mass * self.offset
+        driving = self.gravity * self.mass * self.offset
         return self.radius * self.resistance / driving if driving > 0 else np.inf
 
     @property
     def yield_acceleration(self):
         """m/s2"""
-        return (self.radius * self.resistance / self.mass - GRAVITY * self.offset) / self.depth
+        return (self.radius * self.resistance / self.mass - self.gravity * self.offset) / self.depth
 
 
 def below(table, columns, cells):
@@ -102,7 +104,7 @@ def cut(ground, x, y, radius, sense, strength=None):
     edges[0], edges[-1] = ends
     length = radius * np.diff(np.arcsin(np.clip((edges - x) / radius, -1, 1)))
     return Circle(x, y, radius, sense, total, sense * (x - middle_x), y - middle_y, (met * length).sum(),
-                  (float(ground.x[columns[0]]), float(ground.x[columns[-1]])))
+                  (float(ground.x[columns[0]]), float(ground.x[columns[-1]])), ground.gravity)
 
 
 def better(best, ground, x, y, lowest, sense):

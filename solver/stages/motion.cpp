@@ -93,16 +93,21 @@ nlohmann::json facts_of(const Record& record, const MotionProcessing& processing
 std::string words(const MotionMeasures& m)
 {
   return fmt::format(
-      "PGA {:.3f} g at {:.2f} s, PGV {:.3f} m/s, PGD {:.3f} m, Arias {:.2f} m/s, D5-95 {:.1f} s",
+      "PGA {:#.3g} g at {:.2f} s, PGV {:#.3g} m/s, PGD {:#.3g} m, Arias {:#.3g} m/s, D5-95 {:.1f} s",
       m.pga / standard_gravity, m.pga_time, m.pgv, m.pgd, m.arias, m.d5_95);
 }
 
-void report_correction(Session& session, const std::string& component, const MotionReport& r)
+void report_correction(Session& session, const std::string& component, const MotionProcessing& processing,
+                       const MotionReport& r)
 {
   const MotionMeasures &before = r.recorded, &after = r.corrected;
+  if (processing.baseline == Baseline::none && processing.high_pass == 0 && taper_of(processing) == 0)
+    return session.log.info(
+        "{} motion: not corrected; residual velocity {:.2e} m/s, residual displacement {:.2e} m", component,
+        before.final_velocity, before.final_displacement);
   session.log.info(
-      "{} motion: the correction changed PGV {:.3f} -> {:.3f} m/s, PGD {:.3f} -> {:.3f} m, Arias "
-      "{:.2f} -> {:.2f} m/s, the 5 % spectrum by {:.2g} % on average and at most {:.2g} % (at {:.2g} s)",
+      "{} motion: the correction changed PGV {:#.3g} -> {:#.3g} m/s, PGD {:#.3g} -> {:#.3g} m, Arias "
+      "{:#.3g} -> {:#.3g} m/s, the 5 % spectrum by {:.2g} % on average and at most {:.2g} % (at {:.2g} s)",
       component, before.pgv, after.pgv, before.pgd, after.pgd, before.arias, after.arias,
       100 * r.spectrum.mean, 100 * r.spectrum.greatest, r.spectrum.period);
   session.log.info(
@@ -129,7 +134,7 @@ void report_applied(Session& session, const std::string& component, const Ground
   if (beyond <= much) return;
   session.log.warn(
       "{} motion {}: {:.0f} % of its Arias intensity lie beyond the end of the run at {:g} s, more "
-      "than {:.0f} %, and are not applied: PGA is {:.3f} g of {:.3f} g at {:.2f} s; set "
+      "than {:.0f} %, and are not applied: PGA is {:#.3g} g of {:#.3g} g at {:.2f} s; set "
       "seismic.duration to 'record + 10 s' (the record has {:.1f} s), or cut the record",
       component, source, 100 * beyond, duration, 100 * much, applied.pga / standard_gravity,
       whole.pga / standard_gravity, whole.pga_time, motion.duration());
@@ -159,7 +164,7 @@ std::optional<GroundMotion> load(Session& session, const std::string& component,
     throw Error(exit_code::bad_input, error.what());
   }
   for (const std::string& note : record.notes) session.log.detail("{}", note);
-  report_correction(session, component, result.report);
+  report_correction(session, component, processing, result.report);
   for (const std::string& warning : result.report.warnings) session.log.warn("{}", warning);
   motion.facts[component] = facts_of(record, processing, result.report);
   motion.identity.push_back({"motion." + component, identity_of(record, processing)});
@@ -187,7 +192,7 @@ void check_samples(const Session& session, const IncomingWave& wave)
       exit_code::bad_input,
       fmt::format(
           "seismic.duration: {:g} s in steps of {:g} s, which the records ask for, are more samples than "
-          "{:g}; mend their time step, or resample them",
+          "{:g}; mend the time step or the duration, or resample them",
           duration, step, most_samples));
 }
 
@@ -247,6 +252,11 @@ Motion load_motion(Session& session)
     wave.fade = planned_fade(settings);
     settle_duration(session, wave);
     check_samples(session, wave);
+    if (settings.end == MotionEnd::time && settings.end_time > seismic.duration)
+      session.log.warn(
+          "seismic.motion.end: {:g} s is after the end of the run at {:g} s: the motion is not ended, "
+          "but cut there",
+          settings.end_time, seismic.duration);
     if (options.scale != 1) motion.title += fmt::format(" x {}", options.scale);
   }
   if (wave.horizontal) report_applied(session, "horizontal", *wave.horizontal, motion.facts["horizontal"]);

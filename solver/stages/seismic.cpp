@@ -22,7 +22,8 @@ namespace mpm
 {
 namespace
 {
-constexpr int check_every = 100; // steps between looks at particles and wave speeds
+constexpr double most_steps = 1e12; // years of computing for a single particle
+constexpr int check_every = 100;    // steps between looks at particles and wave speeds
 
 /// A step within the case's Courant number that divides the gauges' interval, so that they are sampled
 /// evenly.
@@ -120,7 +121,7 @@ private:
       session_.log.info("base spring: {}",
                         time > 0 ? fmt::format("{:.2f} s", time) : "none; the base may drift");
     }
-    session_.log.info("seismic stage: {} particles, dt = {:.3e} s, {} s", model_.main->particles.size(),
+    session_.log.info("seismic stage: {} particles, dt = {:.3e} s, {:g} s", model_.main->particles.size(),
                       clock.dt, duration);
     session_.loop_begins(clock.step, model_);
     while (clock.time() < duration * (1 - 1e-9))
@@ -290,6 +291,13 @@ int run_seismic(Session& session)
   Model model = make_model(scene);
   Clock clock;
   clock.dt = choose_step(scene, *model.main);
+  if (scene.seismic.duration / clock.dt > most_steps)
+    throw Error(
+        exit_code::bad_input,
+        fmt::format(
+            "seismic.duration: {:g} s are more than {:g} steps of {:.3g} s, which no run gets through; "
+            "shorten it, or mend the time step of the record",
+            scene.seismic.duration, most_steps, clock.dt));
   if (options.check)
   {
     report_wave_fidelity(session, clock.dt, motion.wave.get());

@@ -1,15 +1,23 @@
 """Checks the rigid block and the slip circle against closed forms; prints 'N passed, N failed', exit 1 on a failure."""
+import argparse
+import json
 import os
 import sys
+import tempfile
+from pathlib import Path
 
+import h5py
 import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts"))
+import newmark
 import slip_circle
+import spectrum
 from checking import report
-from rigid_block import GRAVITY, Block, constant, exponential, linear, slide
+from plot_common import Missing
+from rigid_block import STANDARD_GRAVITY as GRAVITY, Block, constant, exponential, linear, slide
 
 EPSILON = np.finfo(float).eps
 
@@ -148,6 +156,115 @@ def mirrored():
     return abs(left.yield_acceleration / right.yield_acceleration - 1), 5e-3
 
 
+def record():
+    """A decaying sum of seeded sines from 0.5 to 15 Hz in 10 ms steps (s, m/s2): 8 s, peak 2.5 m/s2."""
+    random = np.random.default_rng(3)
+    time = 0.01 * np.arange(801)
+    waves = sum(np.sin(2 * np.pi * f * time + random.uniform(0, 2 * np.pi)) for f in np.geomspace(0.5, 15.0, 20))
+    acceleration = np.exp(-((time - 3.0) / 1.5) ** 2) * waves
+    return time, 2.5 * acceleration / np.abs(acceleration).max()
+
+
+def write_run(folder, settings=None):
+    """A run of that outcrop motion, whose gauges are sampled ten times as coarsely; returns its folder."""
+    time, acceleration = record()
+    with h5py.File(folder / "history.h5", "w") as file:
+        motion = file.create_group("motion")
+        motion["time"] = time
+        motion["upgoing_acceleration"] = np.stack([0.5 * acceleration, 0.0 * time], axis=1)
+        motion["upgoing_velocity"] = np.stack([spectrum.integral(0.5 * acceleration, 0.01), 0.0 * time], axis=1)
+        file.create_group("gauges")["time"] = time[::10]
+    (folder / "identity.json").write_text(json.dumps(settings or {}))
+    return folder
+
+
+def sliding(time, acceleration, yields, step):
+    """Slip (m) of a block that resists with `yields` (m/s2) on level ground: trapezoidal velocity, clipped at rest."""
+    fine = step * np.arange(int(round(time[-1] / step)) + 1)
+    drive = -np.interp(fine, time, acceleration) - yields
+    slip = speed = 0.0
+    for gain in 0.5 * step * (drive[1:] + drive[:-1]):
+        before, speed = speed, max(0.0, speed + gain)
+        slip += 0.5 * step * (before + speed)
+    return slip
+
+
+def slip_of_run(yields):
+    """Slip of the block beside a run, in g and m/s2 of 9.81, as a fine integration of the record itself.
+
+    Tolerance: with steps of 20 us a block starts and stops up to a step off, of slips that last 20 ms or more, which
+    changes their velocity by (1e-3)^2 and their way by 1e-3 of that at the end, where it is the least.
+    """
+    with tempfile.TemporaryDirectory() as folder:
+        settings = {"static.gravity": "9.81 m/s2"}
+        given = argparse.Namespace(folder=write_run(Path(folder), settings), angle=0.0, yields=yields, friction=None,
+                                   material=None)
+        result = newmark.analyse(given.folder, newmark.block_on_plane(given), 1, "block")
+    exact = sliding(*record(), yields * GRAVITY, 2e-5)
+    return abs(result["displacement"] / exact - 1), 1e-4
+
+
+def gravity_of_case():
+    """On the moon a plane yields at 1.62 m/s2 tan(phi - A); --yield stays in units of 9.80665 m/s2. To rounding."""
+    angle, phi = np.radians(10.0), np.radians(25.0)
+    given = argparse.Namespace(angle=10.0, yields=None, friction=np.tan(phi), slip=None, material=None)
+    with tempfile.TemporaryDirectory() as folder:
+        given.folder = write_run(Path(folder), {"static.gravity": "162 cm/s2"})
+        friction = newmark.block_on_plane(given).yield_acceleration() / (1.62 * np.tan(phi - angle)) - 1
+        given.friction, given.yields = None, 0.1
+        yields = newmark.block_on_plane(given).yield_acceleration() / (0.1 * GRAVITY) - 1
+        (given.folder / "identity.json").write_text("{}")  # a case that says nothing has 9.81
+        given.friction, given.yields = np.tan(phi), None
+        usual = newmark.block_on_plane(given).yield_acceleration() / (9.81 * np.tan(phi - angle)) - 1
+    return np.abs([friction, yields, usual]).max(), 1e-12
+
+
+def written_settings():
+    """Numbers with units as a case or a program writes them; a residual of 0 Pa is none, and not the peak. Exact."""
+    key = "materials.soil"
+    soil = {f"{key}.model": "von_mises", f"{key}.strength.peak": "70kPa", f"{key}.softening.displacement": "0.2 m"}
+    none = newmark.strengths(soil | {f"{key}.strength.residual": "0 Pa"}, "soil")
+    left_out = newmark.strengths(soil, "soil")
+    half = newmark.strengths(soil | {f"{key}.strength.residual": "3.5e4 Pa"}, "soil")
+    wrong = [none[1], left_out[1] - left_out[0], half[1] / half[0] - 0.5, half[0] * np.sqrt(3) / 70e3 - 1,
+             newmark.quantity({"a": "1.8 g/cm^3"}, "a") - 1800, newmark.quantity({"a": "0.56"}, "a") - 0.56]
+    try:
+        newmark.quantity({"a": "70 ksi"}, "a")
+        wrong.append(1.0)
+    except Missing:
+        pass
+    return np.abs(wrong).max(), 1e-12
+
+
+def friction_of_material():
+    """A slip_weakening material mobilises sin(atan(mu)) with match mc and mu with plane, at first and after its slip."""
+    key = "materials.zone"
+    zone = {f"{key}.model": "slip_weakening", f"{key}.friction.peak": "0.56", f"{key}.friction.residual": "0.07",
+            f"{key}.critical_slip": "1.7 m"}
+    after = 0.07 + 0.05 * (0.56 - 0.07)
+    wrong = []
+    for match, mobilised in (("mc", lambda mu: np.sin(np.arctan(mu))), ("plane", lambda mu: mu)):
+        friction = newmark.mobilised_friction(zone | {f"{key}.match": match}, "zone")
+        wrong += [friction(0.0) - mobilised(0.56), friction(1.7) - mobilised(after)]
+    return np.abs(wrong).max(), 1e-12
+
+
+def left_over():
+    """An analysis that an earlier run left in the folder is not shown beside this one."""
+    with tempfile.TemporaryDirectory() as folder:
+        given = argparse.Namespace(folder=write_run(Path(folder)), angle=0.0, yields=0.05, friction=None, material=None)
+        stored = newmark.analyse(given.folder, newmark.block_on_plane(given), 1, "block")
+        (given.folder / "newmark.json").write_text(json.dumps(stored))
+        kept = newmark.stored_or_estimated(given.folder)["block"] == "block"
+        write_run(given.folder, {"another": "run"})
+        try:
+            newmark.stored_or_estimated(given.folder)
+            told = False
+        except Missing:  # there is no ground to estimate it from
+            told = True
+    return float(not kept or not told), 0.0
+
+
 def checks():
     """Name and (error, tolerance) of every check."""
     yield "a rectangular pulse: (A T)^2 / 2 (1 / N - 1 / A)", rectangular_pulse()
@@ -160,6 +277,13 @@ def checks():
     yield "a pendulum without strength", pendulum()
     yield "the circle of a vertical cut: 3.83", vertical_cut()
     yield "a mirrored slope", mirrored()
+    yield "slip of decimetres beside a run", slip_of_run(0.05)
+    yield "slip of millimetres beside a run", slip_of_run(0.15)
+    yield "slip of tenths of a millimetre beside a run", slip_of_run(0.2)
+    yield "the case's gravity", gravity_of_case()
+    yield "settings as they are written", written_settings()
+    yield "friction that a material mobilises", friction_of_material()
+    yield "an analysis of another run", left_over()
 
 
 if __name__ == "__main__":

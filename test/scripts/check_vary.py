@@ -66,12 +66,33 @@ def turned():
     return np.abs(resolve_motion.resolve(east, north, azimuth) - motion).max(), 4 * np.finfo(float).eps
 
 
+def refused():
+    """Records whose step, values or units are not what they seem are refused; one as PEER writes it is read. Exact."""
+    told = "NPTS= 4, DT= .01 SEC"
+    files = {"good": ("UNITS OF G", told, "1 2 3 4"), "slow": ("UNITS OF G", "NPTS= 4, DT= 10 MSEC", "1 2 3 4"),
+             "hole": ("UNITS OF G", told, "1 NaN 3 4"), "gal": ("UNITS OF CM/S2", told, "1 2 3 4")}
+    wrong = 0
+    with tempfile.TemporaryDirectory() as folder:
+        for name, lines in files.items():
+            (Path(folder) / name).write_text("\n".join(("RECORD", "EVENT", *lines)) + "\n")
+        for east, north in (("good", "good"), ("slow", "good"), ("hole", "good"), ("good", "gal")):
+            options = argparse.Namespace(east=f"{folder}/{east}", north=f"{folder}/{north}", azimuth=0.0, begin=0.0,
+                                         end=None)
+            try:
+                step = resolve_motion.make(options)[2]
+                wrong += (east, north) != ("good", "good") or step != 0.01
+            except resolve_motion.BadRecord:
+                wrong += (east, north) == ("good", "good")
+    return float(wrong), 0.0
+
+
 def checks():
     """Name and (error, tolerance) of every check."""
     yield "the measures of a slide", measured()
     yield "a toe that does not get so far", never()
     yield "a record cut", cut()
     yield "east and north turned back", turned()
+    yield "records that are not what they seem", refused()
 
 
 if __name__ == "__main__":

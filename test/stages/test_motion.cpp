@@ -51,6 +51,10 @@ public:
     all.insert(all.end(), more.begin(), more.end());
     return bench_.run("mpm-seismic", all);
   }
+  Ending program(const std::string& name, const Arguments& arguments) const
+  {
+    return bench_.run(name, arguments);
+  }
   nlohmann::json summary(const std::string& out) const
   {
     return nlohmann::json::parse(contents(bench_ / out / "summary.json"));
@@ -236,6 +240,8 @@ TEST_CASE("a motion that is ended is reported as it fades", "[stages]")
   CHECK(motion["applied"]["pga"].get<double>() < 0.9 * motion["corrected"]["pga"].get<double>());
   CHECK(motion["arias_share_beyond_end"].get<double>() == 0);
   for (std::size_t i = 56; i < a.size(); ++i) REQUIRE(a[i] == Approx(0).margin(1e-12));
+  const Ending late = b.run("late", {"--set", "seismic.motion.end=0.7 s"});
+  CHECK_THAT(late.said, Contains("seismic.motion.end: 0.7 s is after the end of the run at 0.6 s"));
 }
 
 TEST_CASE("a fixed base applies no motion, reports none, and says so if one is given", "[stages]")
@@ -267,6 +273,10 @@ TEST_CASE("what of a motion cannot be is refused, and nothing is ever not a numb
   const Ending slow = b.run("x", b.record("shake.txt", "m/s2", "1e300"));
   CHECK(slow.code == 65);
   CHECK_THAT(slow.said, Contains("time step of 1e+300 s") && !Contains("nan"));
+  const Ending endless = b.run("x", {"--check", "--set", "seismic.motion.horizontal.dt=1e100 s", "--set",
+                                     "seismic.duration=record + 10 s"});
+  CHECK(endless.code == 65);
+  CHECK_THAT(endless.said, Contains("seismic.duration") && Contains("mend the time step"));
   const Ending fine = b.run("x", {"--check", "--set", "seismic.motion.horizontal.dt=1e-12 s"});
   CHECK(fine.code == 65);
   CHECK_THAT(fine.said, Contains("resample"));
@@ -277,4 +287,36 @@ TEST_CASE("what of a motion cannot be is refused, and nothing is ever not a numb
   const Ending alone = b.run("x", {"--record-unit", "gal"});
   CHECK(alone.code == 64);
   CHECK_THAT(alone.said, Contains("--motion"));
+}
+
+TEST_CASE("waves that lie beyond the end of the run are not looked for in its grid", "[stages]")
+{
+  const Block b;
+  std::string calm_then_quick = sine(3, 2);
+  calm_then_quick += sine(12, 40);
+  put(b / "shake.txt", calm_then_quick);
+  const auto share_above = [&](const std::string& out, const std::string& duration)
+  {
+    REQUIRE(b.run(out, {"--set", "seismic.duration=" + duration}).code == 0);
+    const auto waves = b.summary(out)["resolution"]["materials"]["rock"]["S"];
+    CHECK(waves["carried_to"].get<double>() < 20);
+    return waves["arias_share_above"].get<double>();
+  };
+  CHECK(share_above("calm", "1.2 s") < 0.2);   // a burst of 2 Hz
+  CHECK(share_above("whole", "record") > 0.8); // 16 times its intensity at 40 Hz
+}
+
+TEST_CASE("the slope that is shipped applies its whole motion, in its quick profile too", "[stages]")
+{
+  const Block b;
+  for (const Arguments& profile : {Arguments{}, Arguments{"--profile", "quick"}})
+  {
+    Arguments arguments{
+        SOURCE_DIR "/cases/slope/case.yaml", "--check", "--from", "none.h5", "--set", "grid.spacing=2 m"};
+    arguments.insert(arguments.end(), profile.begin(), profile.end());
+    const Ending ending = b.program("mpm-seismic", arguments);
+    CHECK(ending.code == 0);
+    CHECK_THAT(ending.said,
+               Contains("PGA 0.250 g at 8.68 s") && Contains("for 49.99 s") && !Contains("beyond the end"));
+  }
 }
