@@ -14,6 +14,7 @@
 #include "solver/stages/observer.hpp"
 #include "solver/stages/predict.hpp"
 #include "solver/stages/self_driven.hpp"
+#include "solver/stages/slide_report.hpp"
 
 #include <cmath>
 
@@ -152,6 +153,7 @@ private:
     progress.finish(moment());
     report_boundaries(session_, model_);
     report_end();
+    session_.log.info("{}", slide_text(observer_.slide().summary()));
     report_rest(clock);
     save("final.h5", clock);
     energy_.report();
@@ -284,7 +286,7 @@ int run_seismic(Session& session)
   if (options.check)
   {
     report_wave_fidelity(session, clock.dt, motion.wave.get());
-    return predict(session, model, clock, scene.seismic.duration);
+    return predict_shaking(session, model, clock);
   }
   if (options.from.empty())
     session.log.info("no gravity: starts from a stress-free state");
