@@ -7,6 +7,10 @@
 
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
+#include <limits>
+#include <string_view>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 namespace mpm
@@ -18,6 +22,21 @@ using namespace std::chrono_literals;
 constexpr auto redraw_every = 500ms;
 constexpr auto print_every = 10s;
 constexpr const char* erase_line = "\r\033[K";
+constexpr std::size_t usual_columns = 80;
+constexpr std::size_t whole = std::numeric_limits<std::size_t>::max();
+
+/// Whether stderr is a terminal that can erase a line.
+bool can_redraw()
+{
+  const char* term = std::getenv("TERM");
+  return ::isatty(STDERR_FILENO) && term && *term && std::string_view(term) != "dumb";
+}
+
+std::size_t columns()
+{
+  winsize size{};
+  return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : usual_columns;
+}
 
 std::shared_ptr<spdlog::logger> plain_logger(spdlog::sink_ptr sink, const std::string& pattern)
 {
@@ -43,10 +62,13 @@ std::string short_number(double value)
 }
 } // namespace
 
-Log::Log(Verbosity verbosity)
-    : verbosity_(verbosity), live_(verbosity != Verbosity::quiet && ::isatty(STDERR_FILENO)),
-      screen_(plain_logger(std::make_shared<spdlog::sinks::stderr_sink_mt>(), "%v"))
+Log::Log(Verbosity verbosity, Screen screen)
+    : verbosity_(verbosity),
+      live_(verbosity != Verbosity::quiet && screen == Screen::messages && can_redraw()),
+      screen_(plain_logger(std::make_shared<spdlog::sinks::stderr_sink_mt>(), "%v")), answer_(screen_)
 {
+  if (screen == Screen::answer)
+    answer_ = plain_logger(std::make_shared<spdlog::sinks::stdout_sink_mt>(), "%v");
 }
 
 Log::~Log()
@@ -79,15 +101,15 @@ void Log::say(Level level, const std::string& text)
   const Level least = verbosity_ == Verbosity::verbose  ? Level::detail
                       : verbosity_ == Verbosity::normal ? Level::info
                                                         : Level::warning;
-  if (level >= least) to_screen(prefix + text);
+  if (level >= least) to_screen(prefix + text, level);
   to_file(prefix + text);
 }
 
-void Log::to_screen(const std::string& text)
+void Log::to_screen(const std::string& text, Level level)
 {
   if (line_shown_) std::fputs(erase_line, stderr);
   line_shown_ = false;
-  screen_->info(spdlog::string_view_t(text));
+  (level < Level::warning ? answer_ : screen_)->info(spdlog::string_view_t(text));
 }
 
 void Log::to_file(const std::string& text)
@@ -98,10 +120,11 @@ void Log::to_file(const std::string& text)
     kept_.push_back({std::chrono::system_clock::now(), text});
 }
 
-void Log::redraw(const std::string& line)
+void Log::redraw(const std::vector<std::string>& parts)
 {
   if (!live_) return;
-  std::fprintf(stderr, "%s%s", erase_line, line.c_str());
+  // The last column stays free: some terminals go on to the next line when it is filled.
+  std::fprintf(stderr, "%s%s", erase_line, line_of(parts, columns() - 1).c_str());
   std::fflush(stderr);
   line_shown_ = true;
 }
@@ -130,7 +153,7 @@ bool Progress::due() const
   return now - printed_ >= print_every || (log_.live() && now - drawn_ >= redraw_every);
 }
 
-std::string Progress::line(const Moment& moment, Clock::time_point now)
+std::vector<std::string> Progress::parts(const Moment& moment, Clock::time_point now)
 {
   const double rate = double(moment.step - last_step_) / seconds(now - drawn_);
   const double done = moment.fraction - stage_.first_fraction;
@@ -138,17 +161,17 @@ std::string Progress::line(const Moment& moment, Clock::time_point now)
       done > 0 && moment.fraction < 1 ? seconds(now - start_) * (1 - moment.fraction) / done : NAN;
   drawn_ = now;
   last_step_ = moment.step;
-  return progress_line(stage_, moment, rate, left);
+  return progress_parts(stage_, moment, rate, left);
 }
 
 void Progress::update(const Moment& moment)
 {
   const auto now = Clock::now();
-  const std::string text = line(moment, now);
-  log_.redraw(text);
+  const std::vector<std::string> all = parts(moment, now);
+  log_.redraw(all);
   if (now - printed_ < print_every) return;
   printed_ = now;
-  log_.progress(text);
+  log_.progress(line_of(all, whole));
 }
 
 void Progress::finish(const Moment& moment)
@@ -156,11 +179,11 @@ void Progress::finish(const Moment& moment)
   const auto now = Clock::now();
   drawn_ = start_; // the last line tells the mean speed
   last_step_ = stage_.first_step;
-  const std::string text = line(moment, now);
+  const std::vector<std::string> all = parts(moment, now);
   printed_ = now;
-  log_.redraw(text);
+  log_.redraw(all);
   log_.keep_line();
-  log_.progress(text);
+  log_.progress(line_of(all, whole));
 }
 
 std::string duration_text(double seconds)
@@ -172,15 +195,20 @@ std::string duration_text(double seconds)
   return fmt::format("{} s", total);
 }
 
-std::string progress_line(const StageFacts& stage, const Moment& moment, double steps_per_second,
-                          double seconds_left)
+std::vector<std::string> progress_parts(const StageFacts& stage, const Moment& moment,
+                                        double steps_per_second, double seconds_left)
 {
-  std::string text = stage.name;
-  const auto add = [&text]<class... Args>(fmt::format_string<Args...> format, Args&&... args)
-  { text += "  " + fmt::format(format, std::forward<Args>(args)...); };
+  std::vector<std::string> parts;
+  const auto add = [&parts]<class... Args>(fmt::format_string<Args...> format, Args&&... args)
+  { parts.push_back(fmt::format(format, std::forward<Args>(args)...)); };
 
-  if (!std::isnan(moment.fraction)) add("{:.0f} %", std::floor(100 * moment.fraction));
+  if (std::isnan(moment.fraction))
+    add("{}", stage.name);
+  else
+    add("{} {:.0f} %", stage.name, std::floor(100 * moment.fraction));
+  if (std::isfinite(seconds_left)) add("left {}", duration_text(seconds_left));
   add("t {:.4g} s", moment.time);
+  add("max v {:.2g} m/s", moment.speed);
   add("step {}", moment.step);
   if (std::isfinite(steps_per_second) && steps_per_second > 0)
   {
@@ -190,8 +218,14 @@ std::string progress_line(const StageFacts& stage, const Moment& moment, double 
       add("{:.3g} ns/particle-step", 1e9 * stage.threads / (steps_per_second * double(stage.particles)));
   }
   add("KE {} J", short_number(moment.kinetic));
-  add("max v {:.2g} m/s", moment.speed);
-  if (std::isfinite(seconds_left)) add("left {}", duration_text(seconds_left));
-  return text;
+  return parts;
+}
+
+std::string line_of(const std::vector<std::string>& parts, std::size_t width)
+{
+  std::string line = parts.empty() ? "" : parts.front().substr(0, width);
+  for (std::size_t k = 1; k < parts.size() && line.size() + 2 + parts[k].size() <= width; ++k)
+    line += "  " + parts[k];
+  return line;
 }
 } // namespace mpm

@@ -25,12 +25,19 @@ enum class Verbosity
   verbose, ///< details too
 };
 
-/// Plain text on stderr, as much as the verbosity lets through; everything in the log file. What is said
+/// Where messages go on the screen; warnings and errors go to stderr always.
+enum class Screen
+{
+  messages, ///< all to stderr
+  answer,   ///< messages are what was asked for: to stdout, and no live line
+};
+
+/// Plain text on the screen, as much as the verbosity lets through; everything in the log file. What is said
 /// before the file is open is kept for it.
 class Log
 {
 public:
-  explicit Log(Verbosity = Verbosity::normal);
+  explicit Log(Verbosity = Verbosity::normal, Screen = Screen::messages);
   Log(const Log&) = delete;
   Log& operator=(const Log&) = delete;
   ~Log();
@@ -63,7 +70,8 @@ public:
 
   /// True when stderr is a terminal on which one line may be redrawn.
   bool live() const { return live_; }
-  void redraw(const std::string& line);
+  /// Shows as many of the parts, from the first on, as the terminal has room for in one line.
+  void redraw(const std::vector<std::string>& parts);
   /// Leaves the live line where it is, and goes on below.
   void keep_line();
   /// To the file, and to stderr unless a live line shows it there.
@@ -83,13 +91,13 @@ private:
     std::string text;
   };
   void say(Level, const std::string& text);
-  void to_screen(const std::string& text);
+  void to_screen(const std::string& text, Level level = Level::info);
   void to_file(const std::string& text);
 
   Verbosity verbosity_;
   bool live_;
   bool line_shown_ = false;
-  std::shared_ptr<spdlog::logger> screen_;
+  std::shared_ptr<spdlog::logger> screen_, answer_;
   std::shared_ptr<spdlog::logger> file_;
   std::vector<Kept> kept_;
   std::vector<std::string> warnings_;
@@ -127,7 +135,7 @@ public:
 
 private:
   using Clock = std::chrono::steady_clock;
-  std::string line(const Moment&, Clock::time_point now);
+  std::vector<std::string> parts(const Moment&, Clock::time_point now);
 
   Log& log_;
   StageFacts stage_;
@@ -137,6 +145,9 @@ private:
 
 /// "1 h 12 min"
 std::string duration_text(double seconds);
-/// The text of a progress line; NaN for what is not known.
-std::string progress_line(const StageFacts&, const Moment&, double steps_per_second, double seconds_left);
+/// The parts of a progress line, what matters most first; NaN for what is not known.
+std::vector<std::string> progress_parts(const StageFacts&, const Moment&, double steps_per_second,
+                                        double seconds_left);
+/// As many of the parts, from the first on, as fit into `width` columns (no more than the first is cut for).
+std::string line_of(const std::vector<std::string>& parts, std::size_t width);
 } // namespace mpm

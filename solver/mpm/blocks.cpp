@@ -172,11 +172,9 @@ void check_particles(const Domain& domain, const std::vector<double>& reference_
   for (int k = 0; k < p.size(); ++k)
   {
     const double all = p.x[k] + p.y[k] + p.stress_xx[k] + p.stress_yy[k] + p.stress_zz[k] + p.stress_xy[k];
-    if (!std::isfinite(all)) throw Diverged(place(k) + "is not finite; use a smaller time_step.safety");
+    if (!std::isfinite(all)) throw Diverged(place(k) + "is not finite");
     if (p.volume[k] < 0.1 * reference_volume[p.id[k]])
-      throw Diverged(
-          place(k) +
-          "is squeezed below a tenth of its volume; use a smaller time_step.safety or grid.spacing");
+      throw Diverged(place(k) + "is squeezed below a tenth of its volume");
   }
 }
 } // namespace mpm

@@ -29,7 +29,7 @@ void find_diverged(const Domain& domain)
   throw Diverged(
       domain.name +
       ": a particle moves more than a quarter of a cell, or is deformed wholly, in the step at t = " +
-      std::to_string(domain.time) + " s; use a smaller time_step.safety");
+      std::to_string(domain.time) + " s");
 }
 } // namespace
 

@@ -163,7 +163,7 @@ void check_pairs(const CLI::App& app, const Typed& typed, const Options& options
 {
   if (options.out.empty() && !options.check) refuse("--out", "is missing: where shall the results go?");
   if (typed.quiet && typed.verbose) refuse("--quiet", "contradicts --verbose; leave one of them");
-  if (options.program != "mpm-seismic" || app.count("--motion") || app.count("--vertical")) return;
+  if (!options.seismic() || app.count("--motion") || app.count("--vertical")) return;
   for (const std::string name : {"--record-dt", "--record-unit"})
     if (app.count(name))
       refuse(name, "applies to a record of --motion or --vertical, and there is neither; for a record of the "
@@ -188,7 +188,7 @@ void read_values(const CLI::App& app, const Typed& typed, Options& options)
 std::optional<int> parse_command_line(int argc, char** argv, Options& options, const std::string& version)
 try
 {
-  const bool seismic = options.program == "mpm-seismic";
+  const bool seismic = options.seismic();
   CLI::App app(seismic ? "Shakes a slope from its static state, and follows the slide."
                        : "Finds the static state of a slope under gravity.",
                options.program);

@@ -27,6 +27,10 @@ struct Options
   double max_wall = 0; ///< s, 0: no limit
   bool check = false, fresh = false;
   Verbosity verbosity = Verbosity::normal;
+
+  bool seismic() const { return program == "mpm-seismic"; }
+  /// The case's key for the Courant number of this stage.
+  const char* safety_key() const { return seismic() ? "time_step.safety" : "static.safety"; }
 };
 
 /// Fills `options`, whose `program` says which options there are. Returns an exit code when the command line

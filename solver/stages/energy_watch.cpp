@@ -38,8 +38,7 @@ void check_growth(const Domain& domain, const Energies& e)
       std::max({domain.ledger.kinetic, e[Energy::incoming], std::fabs(e[Energy::free_field]), settled});
   if (!(grown > growth_share * sources + negligible_energy(domain.ledger))) return;
   throw Diverged(fmt::format("{}: the energy has grown by {:.3g} J/m without a source by t = {:.3f} s, where "
-                             "{:.3g} J/m were there or came "
-                             "in; use a smaller time_step.safety",
+                             "{:.3g} J/m were there or came in",
                              domain.name, grown, domain.time, sources));
 }
 
@@ -60,9 +59,11 @@ void EnergyWatch::check(double time)
         warned_.push_back(domain.name);
         session_.log.warn(
             "{}: the energy ledger does not close: {:.3g} J/m are left at t = {:.3f} s, more than the "
-            "{:.3g} J/m that the time step explains; the largest term is {:.3g} J/m. Look at /energy "
-            "of history.h5, and try a smaller time_step.safety or grid.spacing",
-            domain.name, left, time, bound, largest_term(e));
+            "{:.3g} J/m that the time step explains; the largest term is {:.3g} J/m. Look at "
+            "{}, and try a smaller {} or grid.spacing",
+            domain.name, left, time, bound, largest_term(e),
+            session_.options.seismic() ? "/energy of history.h5" : "energy in summary.json",
+            session_.options.safety_key());
       });
 }
 

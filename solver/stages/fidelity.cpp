@@ -77,7 +77,7 @@ void report_wave_fidelity(Session& session, double dt, const IncomingWave* wave)
       if (spectra[k]) report_share(session, material, kinds[k], limit, *spectra[k], found);
     }
   }
-  if (session.scene.safety < usual_courant)
+  if (wave && session.scene.safety < usual_courant)
     session.log.warn(
         "time_step.safety: {} is below {}: waves lose the same in every step, so that numerical damping "
         "is {:.2g} times that of {}; a smaller step is not a more accurate one",

@@ -15,6 +15,7 @@
 #include "solver/stages/observer.hpp"
 #include "solver/stages/predict.hpp"
 #include "solver/stages/self_driven.hpp"
+#include "solver/stages/slide_report.hpp"
 
 #include <cmath>
 
@@ -155,6 +156,7 @@ private:
     report_boundaries(session_, model_);
     observer_.look_last(clock);
     report_end(clock);
+    session_.log.info("{}", slide_text(observer_.slide().summary()));
     report_rest(clock);
     save("final.h5", clock);
     energy_.report();
@@ -301,7 +303,7 @@ int run_seismic(Session& session)
   if (options.check)
   {
     report_wave_fidelity(session, clock.dt, motion.wave.get());
-    return predict(session, model, clock, scene.seismic.duration);
+    return predict_shaking(session, model, clock);
   }
   if (options.from.empty())
     session.log.info("no gravity: starts from a stress-free state");

@@ -3,6 +3,7 @@
 #include "io/checkpoint.hpp"
 #include "io/signals.hpp"
 #include "solver/mpm/parallel.hpp"
+#include "solver/mpm/waiting.hpp"
 
 #include <cmath>
 #include <iostream>
@@ -27,7 +28,8 @@ bool Clock::passed(double every) const
   return multiples(time()) > multiples(time() - dt);
 }
 
-Session::Session(Options given) : options(std::move(given)), log(options.verbosity)
+Session::Session(Options given)
+    : options(std::move(given)), log(options.verbosity, options.check ? Screen::answer : Screen::messages)
 {
   scene = load_case(options.case_file, options.overrides, options.profile);
   for (const std::string& warning : scene.warnings) log.warn("{}", warning);
@@ -217,13 +219,14 @@ void check_step(Session& session, const Model& model, double safety, Clock& cloc
   if (clock.dt * speed <= limit * h) return;
   clock.change_step(clock.dt / 2);
   session.log.warn(
-      "t = {:.3f} s: the ground has loosened to a wave speed of {:.0f} m/s; the step is halved to {:.3e} s, "
-      "which doubles the numerical damping of waves",
-      clock.time(), speed, clock.dt);
+      "t = {:.3f} s: the ground has loosened to a wave speed of {:.0f} m/s; the step is halved to {:.3e} s{}",
+      clock.time(), speed, clock.dt,
+      session.options.seismic() ? ", which doubles the numerical damping of waves" : "");
 }
 
 int run_program(int argc, char** argv, const std::string& name, int (*stage)(Session&))
 {
+  parallel::wait_briefly(argv);
   Options options;
   options.program = name;
   for (int k = 0; k < argc; ++k) options.command += (k ? " " : "") + std::string(argv[k]);
@@ -244,7 +247,7 @@ int run_program(int argc, char** argv, const std::string& name, int (*stage)(Ses
     }
     catch (const Diverged& error)
     {
-      session.log.error("{}", error.what());
+      session.log.error("{}; use a smaller {} or grid.spacing", error.what(), options.safety_key());
       return exit_code::diverged;
     }
   }

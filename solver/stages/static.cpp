@@ -29,14 +29,15 @@ int run_static(Session& session)
   if (session.options.check)
   {
     report_wave_fidelity(session, shaking_step, nullptr);
-    return predict(session, model, clock, scene.statics.ramp);
+    return predict_relaxation(session, model, clock);
   }
 
   // 2. The folder: ours, finished, or to be gone on with.
   RunFolder::Identity identity{{"stage", "static"}};
   for (const auto& [key, value] : settings_with_digests(scene))
   {
-    const bool of_the_shaking = key.starts_with("seismic.motion") || key == "seismic.duration";
+    const bool of_the_shaking =
+        key.starts_with("seismic.motion") || key == "seismic.duration" || key.starts_with("time_step");
     if (!of_the_shaking && !key.starts_with("output")) identity.push_back({key, value});
   }
   session.open_folder(identity);

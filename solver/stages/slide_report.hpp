@@ -1,0 +1,11 @@
+#pragma once
+
+#include "io/log.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace mpm
+{
+/// What a slide has come to, in one line: how much ground, how far, when. Takes `Slide::summary()`.
+std::string slide_text(const nlohmann::json& slide);
+} // namespace mpm
