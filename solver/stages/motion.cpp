@@ -34,8 +34,19 @@ void report(Session& session, const std::string& component, const Record& record
       "{} motion: residual velocity {:.2e} -> {:.2e} m/s, residual displacement {:.2e} -> {:.2e} m",
       component, r.raw_residual_velocity, r.residual_velocity, r.raw_residual_displacement,
       r.residual_displacement);
+  if (!record.component.empty())
+    session.log.info("{} motion: component {} of {}", component, record.component, record.source);
   for (const std::string& note : record.notes) session.log.detail("{}", note);
+  for (const std::string& warning : record.warnings) session.log.warn("{}", warning);
   for (const std::string& warning : r.warnings) session.log.warn("{}", warning);
+}
+
+/// What the user told of a record, for the identity of the run: the same file in another unit is another
+/// motion.
+std::string told_of(const RecordSource& source)
+{
+  return (source.unit.empty() ? "" : ", unit " + source.unit) +
+         (source.component.empty() ? "" : ", component " + source.component);
 }
 
 std::optional<GroundMotion> load(Session& session, const std::string& component,
@@ -46,7 +57,8 @@ std::optional<GroundMotion> load(Session& session, const std::string& component,
   if (!replacement.empty())
   {
     source = MotionSource{};
-    source->record = {replacement, "auto", options.record_dt, options.record_unit, std::nullopt};
+    const std::string& part = component == "vertical" ? options.vertical_component : options.record_component;
+    source->record = {replacement, "auto", options.record_dt, options.record_unit, std::nullopt, "", part};
   }
   if (!source) return std::nullopt;
   const MotionSettings& settings = session.scene.seismic.motion;
@@ -66,7 +78,8 @@ std::optional<GroundMotion> load(Session& session, const std::string& component,
   report(session, component, record, result);
   motion.identity.push_back(
       {"motion." + component,
-       fmt::format("sha256 {}, dt {} s, scale {}", read_source.digest, record.dt, processing.scale)});
+       fmt::format("sha256 {}, dt {} s, scale {}{}", read_source.digest, record.dt, processing.scale,
+                   replacement.empty() ? "" : told_of(source->record))});
   const std::string name =
       source->built_in() ? "built_in" : std::filesystem::path(record.source).stem().string();
   motion.title += (motion.title.empty() ? "" : " + ") + name;

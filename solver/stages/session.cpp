@@ -33,6 +33,22 @@ std::string version_text(const std::string& program)
   return fmt::format("{} {} ({})\nbuild: {}", program, SEISMPM_VERSION, SEISMPM_GIT, SEISMPM_BUILD);
 }
 
+/// Options of records on the command line need a record there.
+void check_record_options(const CLI::App& app, const Options& options)
+{
+  const auto refuse = [&](const char* option, const char* file)
+  {
+    throw Error(exit_code::usage, std::string(option) + ": belongs to a record on the command line; give " +
+                                      file + ", or the record's own keys in the case (dt, unit, component)");
+  };
+  for (const char* option : {"--record-dt", "--record-unit"})
+    if (app.count(option) && options.motion.empty() && options.vertical.empty())
+      refuse(option, "--motion or --vertical");
+  if (!options.record_component.empty() && options.motion.empty()) refuse("--record-component", "--motion");
+  if (!options.vertical_component.empty() && options.vertical.empty())
+    refuse("--vertical-component", "--vertical");
+}
+
 /// Fills `options`; returns an exit code when the command line already answers everything.
 std::optional<int> parse(int argc, char** argv, Options& options)
 {
@@ -52,6 +68,9 @@ std::optional<int> parse(int argc, char** argv, Options& options)
     app.add_option("--record-dt", options.record_dt, "time step in s of a --motion that does not tell it");
     app.add_option("--record-unit", options.record_unit,
                    "unit of a --motion that does not tell it (g, m/s2, gal)");
+    app.add_option("--record-component", options.record_component,
+                   "component of a --motion that holds several, as the file names it");
+    app.add_option("--vertical-component", options.vertical_component, "component of a --vertical likewise");
     app.add_option("--scale", options.scale, "factor on the motion");
   }
   app.add_flag("--check", options.check, "validate and predict the cost; run nothing");
@@ -79,6 +98,7 @@ std::optional<int> parse(int argc, char** argv, Options& options)
     std::cerr << options.program << ": " << error.what() << "; see --help\n";
     return exit_code::usage;
   }
+  if (seismic) check_record_options(app, options);
   if (app.count("--max-wall")) options.max_wall = parse_wall_time(wall);
   if (quiet) options.verbosity = Verbosity::quiet;
   if (verbose) options.verbosity = Verbosity::verbose;
