@@ -59,7 +59,9 @@ struct Record
   double dt = NAN;    ///< s
   Quantity quantity = Quantity::acceleration;
   std::vector<double> values;
-  std::vector<std::string> notes; ///< what the reader passed over, for the log
+  std::vector<std::string> notes;    ///< what the reader passed over, for the log
+  std::vector<std::string> warnings; ///< what it doubts, likewise
+  std::string component;             ///< as the file names it; empty if it does not
 };
 
 /// What is done to a record before it enters the base.

@@ -238,6 +238,7 @@ double Case::longest_period() const
 void check_geometry(Case& scene, const YamlNode& tree, Problems& problems)
 {
   check_width(scene, tree, problems);
+  check_extents(scene, tree, problems);
   check_regions(scene, tree, problems);
   if (problems.count() > 0) return;
   check_gauges(scene, tree, problems);

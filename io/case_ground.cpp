@@ -1,9 +1,4 @@
 #include "io/case_sections.hpp"
-#include "io/input_file.hpp"
-
-#include <algorithm>
-#include <charconv>
-#include <sstream>
 
 namespace mpm
 {
@@ -41,65 +36,6 @@ Polyline read_points(const YamlNode& node, Problems& problems)
   return line;
 }
 
-/// The numbers of a line, separated by blanks, commas or semicolons; false if it holds anything else.
-bool numbers_of(const std::string& text, std::vector<double>& numbers)
-{
-  const char* at = text.data();
-  const char* const end = at + text.size();
-  const auto skip = [&]
-  {
-    while (at != end && std::string_view(" \t\r,;").find(*at) != std::string_view::npos) ++at;
-  };
-  for (skip(); at != end; skip())
-  {
-    double value = 0;
-    const auto [next, failure] = std::from_chars(at, end, value);
-    if (failure != std::errc{} || !std::isfinite(value)) return false;
-    numbers.push_back(value);
-    at = next;
-  }
-  return true;
-}
-
-/// Two columns x, y in m; `#` begins a comment, and the first line may be a heading.
-Polyline read_profile(const YamlNode& node, const std::filesystem::path& folder, Problems& problems)
-{
-  Polyline line;
-  const std::string name = read_text(node, problems);
-  if (name.empty()) return line;
-  const std::filesystem::path path = (folder / name).lexically_normal();
-  InputText input = read_input(path, most_of_surface);
-  if (!input.problem.empty())
-    return problems.add_missing(node.place, node.path,
-                                path.string() + ": " + input.problem +
-                                    "; paths are relative to the case file"),
-           line;
-  std::istringstream file(std::move(input.text));
-  int row = 0;
-  bool heading_allowed = true;
-  for (std::string text; std::getline(file, text);)
-  {
-    ++row;
-    std::vector<double> numbers;
-    const bool plain = numbers_of(text.substr(0, text.find('#')), numbers);
-    if (plain && numbers.empty()) continue;
-    if (plain && numbers.size() == 2)
-    {
-      line.x.push_back(numbers[0]);
-      line.y.push_back(numbers[1]);
-    }
-    else if (plain || !heading_allowed)
-      return problems.add(node.place, node.path,
-                          path.string() + ":" + std::to_string(row) + ": must be two numbers, x and y in m"),
-             line;
-    heading_allowed = false;
-  }
-  if (line.x.empty()) problems.add(node.place, node.path, path.string() + ": has no points");
-  if (const std::string problem = rising_problem(line); !problem.empty())
-    problems.add(node.place, node.path, path.string() + ": " + problem);
-  return line;
-}
-
 GaussianHill read_hill(Section section)
 {
   GaussianHill hill;
@@ -126,7 +62,14 @@ Offset read_surface(Section section, Surface& surface, const std::filesystem::pa
     return {};
   }
   if (points) surface.shape = read_points(*points, problems);
-  if (file) surface.shape = read_profile(*file, folder, problems);
+  if (file)
+  {
+    Polyline line = read_ground_file(*file, folder, problems);
+    if (const std::string problem = rising_problem(line); !problem.empty())
+      problems.add(file->place, file->path,
+                   (folder / file->text).lexically_normal().string() + ": " + problem);
+    surface.shape = std::move(line);
+  }
   if (hill) surface.shape = read_hill(Section(hill, problems));
   if (!offset) return {};
   return {read_choice(*offset, names, problems), section.number("up", Dimension::length)};

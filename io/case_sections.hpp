@@ -7,6 +7,10 @@
 namespace mpm
 {
 std::vector<Surface> read_surfaces(Section& root, const std::filesystem::path& folder, Problems& problems);
+/// A line of the ground from a text file of x and y, in m unless its heading names another unit of length.
+Polyline read_ground_file(const YamlNode& node, const std::filesystem::path& folder, Problems& problems);
+/// Refuses a line of the ground whose shape lies wholly beside the domain.
+void check_extents(const Case& scene, const YamlNode& tree, Problems& problems);
 std::vector<Region> read_regions(Section& root, const std::vector<Surface>& surfaces,
                                  const std::vector<Material>& materials, Problems& problems);
 std::vector<Material> read_materials(Section& root, double spacing, Problems& problems);

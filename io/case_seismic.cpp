@@ -26,15 +26,18 @@ MotionSource read_source(const YamlNode& node, const std::filesystem::path& fold
   }
   Section section(&node, problems);
   source.record.file = beside(folder, section.text("file"));
-  const std::vector<std::string> formats{"auto", "peer", "column", "two_column"};
+  const std::vector<std::string> formats = record_formats();
   source.record.format = formats[section.choice_or(0, "format", formats)];
   source.record.dt = section.number_or(NAN, "dt", Dimension::time, Range::positive());
-  const std::vector<std::string> units{"g", "gal", "m/s2", "cm/s2", "m/s", "cm/s", "m", "cm"};
-  if (section.find("unit")) source.record.unit = units[section.choice("unit", units)];
+  source.record.unit = section.text_or("", "unit");
+  if (!source.record.unit.empty() && !is_record_unit(source.record.unit))
+    section.error("unit",
+                  "is '" + source.record.unit + "'; must be a unit of records, as g, gal, m/s2, cm/s or m");
   const std::vector<std::string> quantities{"acceleration", "velocity", "displacement"};
   if (section.find("quantity"))
     source.record.quantity = static_cast<Quantity>(section.choice("quantity", quantities));
   source.record.origin = section.text_or("", "origin");
+  source.record.component = section.text_or("", "component");
   source.scale = section.number_or(1, "scale", Dimension::none);
   return source;
 }

@@ -14,13 +14,20 @@ namespace mpm
 struct RecordSource
 {
   std::string file;
-  /// auto, peer (a header line with NPTS and DT), column (one value a line) or two_column (time in s, value).
+  /// One of record_formats(): auto, peer (a header line with NPTS and DT), column (one value a line),
+  /// two_column (time, value) or an archive's.
   std::string format = "auto";
   double dt = NAN;                  ///< s; NaN: from the file
-  std::string unit;                 ///< g, gal, m/s2, cm/s2, m/s, cm/s, m or cm; empty: from the file
+  std::string unit;                 ///< g, gal, m/s2, cm/s, ... (records::parse_unit); empty: from the file
   std::optional<Quantity> quantity; ///< empty: that of the unit
   std::string origin;               ///< where the record can be had, told when the file is missing
+  std::string component;            ///< of a file that holds several; empty: its only one
 };
+
+/// What a record's format can be called, auto first.
+std::vector<std::string> record_formats();
+/// Whether records may come in this unit, as "cm/s2", "G/10" or "in/sec".
+bool is_record_unit(std::string_view text);
 
 /// Reads source.file. Throws Error: input_missing where the file cannot be read, bad_input where it is no
 /// record.

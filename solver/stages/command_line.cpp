@@ -64,6 +64,12 @@ void add_seismic_options(CLI::App& app, Options& options, Typed& typed)
   app.add_option("--record-unit", options.record_unit,
                  "unit of a --motion or --vertical that does not tell it (g, m/s2, gal)")
       ->type_name("U");
+  app.add_option("--record-component", options.record_component,
+                 "component of a --motion that holds several, as the file names it")
+      ->type_name("C");
+  app.add_option("--vertical-component", options.vertical_component,
+                 "component of a --vertical that holds several")
+      ->type_name("C");
   app.add_option("--scale", typed.scale, "factor on the motion, on top of the case's")->type_name("F");
 }
 
@@ -163,7 +169,14 @@ void check_pairs(const CLI::App& app, const Typed& typed, const Options& options
 {
   if (options.out.empty() && !options.check) refuse("--out", "is missing: where shall the results go?");
   if (typed.quiet && typed.verbose) refuse("--quiet", "contradicts --verbose; leave one of them");
-  if (!options.seismic() || app.count("--motion") || app.count("--vertical")) return;
+  if (!options.seismic()) return;
+  for (const auto& [name, file] :
+       {std::pair{"--record-component", "--motion"}, std::pair{"--vertical-component", "--vertical"}})
+    if (app.count(name) && !app.count(file))
+      refuse(name, std::string("applies to a record of ") + file +
+                       ", and there is none; for a record of the case set "
+                       "its key component");
+  if (app.count("--motion") || app.count("--vertical")) return;
   for (const std::string name : {"--record-dt", "--record-unit"})
     if (app.count(name))
       refuse(name, "applies to a record of --motion or --vertical, and there is neither; for a record of the "

@@ -69,6 +69,7 @@ nlohmann::json facts_of(const Record& record, const MotionProcessing& processing
   const MotionMeasures &before = report.recorded, &after = report.corrected;
   const SpectralChange& spectrum = report.spectrum;
   return {{"source", record.source},
+          {"component", record.component},
           {"unit", record.unit},
           {"quantity", name_of(record.quantity)},
           {"samples", record.values.size()},
@@ -148,7 +149,8 @@ std::optional<GroundMotion> load(Session& session, const std::string& component,
   if (!replacement.empty())
   {
     source = MotionSource{};
-    source->record = {replacement, "auto", options.record_dt, options.record_unit, std::nullopt};
+    const std::string& part = component == "vertical" ? options.vertical_component : options.record_component;
+    source->record = {replacement, "auto", options.record_dt, options.record_unit, std::nullopt, "", part};
   }
   if (!source) return std::nullopt;
   MotionProcessing processing = session.scene.seismic.motion.processing;
@@ -163,7 +165,10 @@ std::optional<GroundMotion> load(Session& session, const std::string& component,
   {
     throw Error(exit_code::bad_input, error.what());
   }
+  if (!record.component.empty())
+    session.log.info("{} motion: component {} of {}", component, record.component, record.source);
   for (const std::string& note : record.notes) session.log.detail("{}", note);
+  for (const std::string& warning : record.warnings) session.log.warn("{}", warning);
   report_correction(session, component, processing, result.report);
   for (const std::string& warning : result.report.warnings) session.log.warn("{}", warning);
   motion.facts[component] = facts_of(record, processing, result.report);

@@ -70,3 +70,72 @@ TEST_CASE("A profile file with a bad row is refused with file and row", "[io]")
   const auto path = written(folder, "case.yaml", replaced(small, "points: [[0 m, 10 m]]", "file: p.csv"));
   CHECK_THROWS_WITH(load_case(path), Contains("p.csv:3: must be two numbers"));
 }
+
+namespace
+{
+/// The ground of a profile file, or why it is refused.
+Polyline ground_of(const std::string& profile)
+{
+  const TemporaryFolder folder;
+  written(folder, "p.csv", profile);
+  const auto path = written(folder, "case.yaml", replaced(small, "points: [[0 m, 10 m]]", "file: p.csv"));
+  return std::get<Polyline>(load_case(path).surfaces[0].shape);
+}
+std::string ground_refusal(const std::string& profile)
+{
+  try
+  {
+    ground_of(profile);
+  }
+  catch (const Error& error)
+  {
+    CHECK(error.code == exit_code::bad_input);
+    return error.what();
+  }
+  return "accepted";
+}
+} // namespace
+
+TEST_CASE("a profile file is read in the unit of its heading", "[io]")
+{
+  const std::string rows = "0, 30\n100, 30\n";
+  for (std::string heading : {"", "x, y\n", "x (m), y (m)\n", "# x (m), y (m)\n",
+                              "Distance [m]; Elevation [m]\n", "x_m y_m\n", "# section A-A\nx y\n"})
+  {
+    INFO(heading);
+    CHECK(ground_of(heading + rows).x == std::vector<double>{0, 100});
+  }
+  for (std::string heading :
+       {"x (ft), y (ft)\n", "# x (ft), y (ft)\n", "x_ft, y_ft\n", "x (Feet) y (Feet)\n", "# units: ft\n",
+        "# survey of 2001\n# coordinates in feet\n", "# Distance (ft), Level (ft)\n"})
+  {
+    INFO(heading);
+    const Polyline line = ground_of(heading + rows);
+    CHECK(line.x[1] == Approx(30.48).epsilon(1e-15));
+    CHECK(line.y[1] == Approx(9.144).epsilon(1e-15));
+  }
+  CHECK(ground_of("x (km), y (m)\n0 10\n0.05 10\r\n").x[1] == Approx(50));
+  CHECK_THAT(ground_refusal("x (rods), y (m)\n" + rows), Contains("p.csv:1: states the unit 'rods'"));
+  CHECK_THAT(ground_refusal("# units: rods\n" + rows), Contains("p.csv:1: states the unit 'rods'"));
+  CHECK_THAT(ground_refusal("x (m), depth (m)\n" + rows), Contains("p.csv:1: has depths"));
+  CHECK_THAT(ground_refusal("y, x\n" + rows), Contains("p.csv:1: has 'y' before 'x'"));
+}
+
+TEST_CASE("a damaged point of a profile file is no heading", "[io]")
+{
+  for (std::string first : {"nan, 10", "0, nan", "O.5, 10", "0, l0", "-, 10", "0; 1O", "0,5 10,2", "0",
+                            "0 10 3", "0,,10", "a, 10"})
+  {
+    INFO(first);
+    CHECK_THAT(ground_refusal(first + "\n20, 10\n40, 10\n"), Contains("p.csv:1: "));
+  }
+}
+
+TEST_CASE("a line of the ground that lies wholly beside the domain is refused", "[io]")
+{
+  CHECK_THAT(ground_refusal("250000, 10\n250020, 12\n250040, 10\n"),
+             Contains("surfaces.ground.file: lies beside the domain, from x = 250000 m to 250040 m"));
+  CHECK_THAT(refusal(replaced(small, "[[0 m, 10 m]]", "[[-50 m, 10 m], [-10 m, 12 m]]")),
+             Contains("surfaces.ground.points: lies beside the domain"));
+  CHECK(load(replaced(small, "[[0 m, 10 m]]", "[[-50 m, 10 m], [-10 m, 10 m]]")).domain.right == 40); // level
+}
