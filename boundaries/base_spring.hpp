@@ -49,6 +49,11 @@ public:
   /// on each face as the velocity of the far end of the face's dashpot, m/s.
   std::vector<std::array<double, 2>> follow(const std::vector<std::array<double, 2>>& distance, double dt);
   void visit_state(StateVisitor& visitor);
+  /// Whether what was loaded is of so many faces, or of a spring that has not acted yet.
+  bool fits(std::size_t faces) const
+  {
+    return stretch_.size() == reaction_.size() && (stretch_.empty() || stretch_.size() == faces);
+  }
 
 private:
   double time_;

@@ -82,6 +82,13 @@ void CompliantBase::visit_state(StateVisitor& visitor)
   input.each("y", "m", [](auto& u) -> double& { return u[1]; });
 }
 
+std::string CompliantBase::state_problem(const Domain& domain) const
+{
+  if (input_.size() != 1) return "the input's displacement is not one";
+  if (!spring_.fits(faces_.size())) return "the spring is not that of as many faces";
+  return faces_problem(faces_, domain);
+}
+
 /// The traction c (2 v_up - u) does the work c v_up^2 - c (u - v_up)^2 on a face that moves with u: what
 /// comes up less what goes down. The nodes may move with another velocity v than the u that the dashpots met.
 /// The spring is the part of the static reaction that learns.

@@ -25,6 +25,7 @@ public:
   void apply_dashpots(Domain& domain, double dt) override;
   void measure_work(const Domain& domain, double dt, Energies& now) const override;
   void visit_state(StateVisitor& visitor) override;
+  std::string state_problem(const Domain& domain) const override;
   /// Velocity of the face at a column of nodes in the last step, m/s; with consistent inertia only.
   const std::array<double, 2>& face_velocity(int column) const { return columns_.velocity(column); }
   /// Where the free field's base stands at the start of the step to come; without columns the free field goes

@@ -103,6 +103,20 @@ void FaceNodes::find(const Domain& domain, const std::vector<Face>& faces,
     }
 }
 
+std::string faces_problem(const std::vector<Face>& faces, const Domain& domain)
+{
+  const double far =
+      100 * domain.grid.spacing; // faces stand beside their particles, ghosts' within a few cells
+  for (const Face& face : faces)
+  {
+    if (face.particle < 0 || face.particle >= domain.particles.size())
+      return "a face belongs to particle " + std::to_string(face.particle) + ", which is not there";
+    if (!(std::fabs(face.offset_x) < far && std::fabs(face.offset_y) < far)) return "a face stands far off";
+    if (!(face.dashpot_x >= 0 && face.dashpot_y >= 0)) return "a dashpot is negative";
+  }
+  return {};
+}
+
 void visit_faces(StateVisitor& visitor, std::string prefix, std::vector<Face>& faces)
 {
   RecordVisitor<Face> list(visitor, std::move(prefix), faces);

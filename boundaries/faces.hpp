@@ -70,6 +70,9 @@ private:
   int built_ = 0;            ///< Grid::built when they were found
 };
 
+/// What of loaded faces cannot be, in words; empty: nothing.
+std::string faces_problem(const std::vector<Face>& faces, const Domain& domain);
+
 /// Saves or loads faces, under names that begin with `prefix`.
 void visit_faces(StateVisitor& visitor, std::string prefix, std::vector<Face>& faces);
 } // namespace mpm

@@ -223,4 +223,13 @@ void FreeFieldSide::visit_state(StateVisitor& visitor)
   rows.each("xy", "N m/m", [](auto& stress) -> double& { return stress(0, 1); });
   for (Eigen::Matrix2d& stress : static_stress_) stress(1, 0) = stress(0, 1);
 }
+
+std::string FreeFieldSide::state_problem(const Domain& domain) const
+{
+  if (std::string problem = faces_problem(faces_, domain); !problem.empty() || !column_) return problem;
+  const std::size_t rows = column_->rows();
+  if (static_stress_.size() != rows) return "the static stress is not that of the column's rows";
+  if (std::string problem = faces_problem(ghost_base_, domain); !problem.empty()) return problem;
+  return ghosts_.problem(domain, rows);
+}
 } // namespace mpm

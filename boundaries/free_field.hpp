@@ -61,6 +61,7 @@ public:
   void add_forces(Domain& domain, double dt) override;
   void measure_work(const Domain& domain, double dt, Energies& now) const override;
   void visit_state(StateVisitor& visitor) override;
+  std::string state_problem(const Domain& domain) const override;
   /// Greatest distance by which a face and its column have moved apart, m.
   double separation(const Domain& domain) const;
 

@@ -1,6 +1,7 @@
 #include "boundaries/images.hpp"
 
 #include "solver/mpm/chunk.hpp"
+#include "solver/mpm/state_problem.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -321,6 +322,29 @@ void FrozenImages::visit_state(StateVisitor& visitor)
   RecordVisitor<std::array<double, 2>> correction(visitor, "image_correction_", correction_);
   correction.each("x", "m/s2", [](auto& acceleration) -> double& { return acceleration[0]; });
   correction.each("y", "m/s2", [](auto& acceleration) -> double& { return acceleration[1]; });
+}
+
+std::string FrozenImages::state_problem(const Domain& domain) const
+{
+  if (resultant_.size() > 1 || correction_.size() != 1)
+    return "the images' resultant or correction is not one";
+  return images_.problem(domain, images_.loads.size());
+}
+
+std::string Images::problem(const Domain& domain, std::size_t loads_there) const
+{
+  const Particles& p = domain.particles;
+  for (const Image& image : list)
+  {
+    if (image.parent < 0 || image.parent >= p.size())
+      return "an image has the parent " + std::to_string(image.parent) + ", which is not there";
+    if (image.load < 0 || std::size_t(image.load) >= loads_there)
+      return "an image brings load " + std::to_string(image.load) + ", which is not there";
+    const int k = domain.place[image.parent];
+    if (!within_tile(domain.grid, image.block, p.x[k] + image.offset.x(), p.y[k] + image.offset.y()))
+      return "an image does not stand in its block";
+  }
+  return {};
 }
 
 void Images::visit_list(StateVisitor& visitor, const std::string& prefix)

@@ -61,6 +61,8 @@ public:
   /// Work of those forces in the step, J per m; after the equation of motion.
   double work(const Domain& domain, double dt) const;
 
+  /// What of a loaded list cannot be, in words; empty: nothing. `loads` is how many there will be.
+  std::string problem(const Domain& domain, std::size_t loads) const;
   /// Saves or loads the list, without the loads, under names that begin with `prefix`.
   void visit_list(StateVisitor& visitor, const std::string& prefix);
   /// Likewise the loads' stress and weight.
@@ -101,6 +103,7 @@ public:
   void add_forces(Domain& domain, double dt) override;
   void measure_work(const Domain& domain, double dt, Energies& now) const override;
   void visit_state(StateVisitor& visitor) override;
+  std::string state_problem(const Domain& domain) const override;
 
 private:
   Images images_;

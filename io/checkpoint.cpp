@@ -1,6 +1,10 @@
 #include "io/checkpoint.hpp"
 
+#include "solver/mpm/state_problem.hpp"
+
 #include <fmt/format.h>
+
+#include <cmath>
 
 namespace mpm
 {
@@ -23,6 +27,12 @@ private:
   h5::Group group_;
 };
 
+[[noreturn]] void refuse(const h5::Group& group, const std::string& name, const std::string& what)
+{
+  throw Error(exit_code::bad_input,
+              fmt::format("{}: {}; no run leaves such a state, use another file", group.where(name), what));
+}
+
 class Loader final : public StateVisitor
 {
 public:
@@ -30,6 +40,8 @@ public:
   void doubles(std::string_view name, std::string_view, std::vector<double>& values) override
   {
     values = group_.read_doubles(std::string(name));
+    for (const double value : values)
+      if (std::isnan(value)) refuse(group_, std::string(name), "is not a number somewhere");
   }
   void integers(std::string_view name, std::vector<std::int64_t>& values) override
   {
@@ -89,6 +101,12 @@ void load_homes(const h5::Group& group, Domain& domain)
 {
   domain.homes.clear();
   const std::vector<std::int64_t> table = group.read_ints("homes");
+  if (table.size() % 5 != 0) refuse(group, "homes", "has no five columns");
+  for (const std::int64_t value : table)
+    if (value != static_cast<int>(value)) refuse(group, "homes", fmt::format("holds {}", value));
+  const std::vector<double> origin{domain.grid.origin_x, domain.grid.origin_y};
+  if (group.attribute_double("spacing") != domain.grid.spacing || group.attribute_doubles("origin") != origin)
+    refuse(group, "", "is another grid than the case's");
   for (std::size_t k = 0; k < table.size(); k += 5)
   {
     const BlockIndex block{static_cast<int>(table[k]), static_cast<int>(table[k + 1])};
@@ -130,10 +148,10 @@ void save_domain(h5::Group& group, Domain& domain)
   visit_rest(rest, domain);
 }
 
-void load_particles(const h5::Group& group, Domain& domain)
+namespace
 {
-  Particles& p = domain.particles;
-  const h5::Group particles = group.open_group("particles");
+void read_particles(const h5::Group& particles, Particles& p)
+{
   const std::size_t count = p.size();
   p.id = particles.read_ints("id");
   if (p.id.size() != count)
@@ -149,6 +167,10 @@ void load_particles(const h5::Group& group, Domain& domain)
     for (int c = 0; c < field.components; ++c)
       for (std::size_t k = 0; k < count; ++k) (p.*field.data[c])[k] = values[k * field.components + c];
   }
+}
+
+void read_materials(const h5::Group& group, Domain& domain)
+{
   for (std::size_t m = 0; m < domain.materials.size(); ++m)
   {
     Material& material = domain.materials[m];
@@ -162,11 +184,9 @@ void load_particles(const h5::Group& group, Domain& domain)
     for (std::size_t k = 0; k < material.state.size(); ++k)
       material.state[k] = own.read_doubles(std::string(material.state_fields()[k].name));
   }
-  load_homes(group.open_group("grid"), domain);
-  rebuild(domain);
 }
 
-void load_domain(const h5::Group& group, Domain& domain)
+void read_boundaries(const h5::Group& group, Domain& domain)
 {
   for (const auto& boundary : domain.boundaries)
   {
@@ -174,13 +194,55 @@ void load_domain(const h5::Group& group, Domain& domain)
     Loader loader(group.open_group("boundary/" + std::string(boundary->name())));
     boundary->visit_state(loader);
   }
-  Loader loader(group.open_group("tracers"));
-  visit_tracers(loader, domain.tracers);
+  Loader tracers(group.open_group("tracers"));
+  visit_tracers(tracers, domain.tracers);
   Loader ledger(group.open_group("energy"));
   visit_ledger(ledger, domain.ledger);
-  load_particles(group, domain);
-  Loader rest(group.open_group("rest"));
-  visit_rest(rest, domain);
-  bind_rest(domain);
+}
+
+std::vector<double> masses_by_id(const Particles& p)
+{
+  std::vector<double> masses(p.size());
+  for (int k = 0; k < p.size(); ++k) masses[p.id[k]] = p.mass[k];
+  return masses;
+}
+
+/// Reads, checks, and only then builds what goes by what was read.
+void load(const h5::Group& group, Domain& domain, bool with_boundaries)
+{
+  const std::vector<double> masses = masses_by_id(domain.particles);
+  try
+  {
+    if (with_boundaries) read_boundaries(group, domain);
+    read_particles(group.open_group("particles"), domain.particles);
+    read_materials(group, domain);
+    load_homes(group.open_group("grid"), domain);
+    if (with_boundaries)
+    {
+      Loader rest(group.open_group("rest"));
+      visit_rest(rest, domain);
+    }
+  }
+  catch (const Error&)
+  {
+    throw;
+  }
+  catch (const std::runtime_error& problem)
+  {
+    refuse(group, "", problem.what());
+  }
+  if (const std::string problem = state_problem(domain, masses); !problem.empty()) refuse(group, "", problem);
+  rebuild(domain);
+}
+} // namespace
+
+void load_particles(const h5::Group& group, Domain& domain)
+{
+  load(group, domain, false);
+}
+
+void load_domain(const h5::Group& group, Domain& domain)
+{
+  load(group, domain, true);
 }
 } // namespace mpm

@@ -57,14 +57,6 @@ void write_synced(const fs::path& path, std::initializer_list<Bytes> parts)
   if (::fsync(file.fd) != 0) disk_error(path, errno);
 }
 
-void sync_folder(const fs::path& folder)
-{
-  const Descriptor opened(::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  const bool failed = opened.fd < 0 || ::fsync(opened.fd) != 0;
-  if (failed && errno != EINVAL && errno != ENOTSUP)
-    disk_error(folder, errno); // some file systems have no such sync
-}
-
 void replace_file(const fs::path& path, std::initializer_list<Bytes> parts)
 {
   fs::path temporary = path;
@@ -146,6 +138,14 @@ std::string write_file_atomically(const fs::path& path, const std::function<void
   const std::string seal = seal_of(digest);
   replace_file(path, {image, std::as_bytes(std::span(seal))});
   return digest;
+}
+
+void sync_folder(const fs::path& folder)
+{
+  const Descriptor opened(::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  const bool failed = opened.fd < 0 || ::fsync(opened.fd) != 0;
+  if (failed && errno != EINVAL && errno != ENOTSUP)
+    disk_error(folder, errno); // some file systems have no such sync
 }
 
 void write_text_atomically(const fs::path& path, std::string_view text)

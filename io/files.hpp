@@ -1,6 +1,7 @@
 #pragma once
 // Result files: written whole or not at all, and signed by who wrote them.
 
+#include "io/digest.hpp"
 #include "io/hdf5.hpp"
 
 #include <functional>
@@ -30,6 +31,9 @@ void write_provenance(h5::Group& root, const Provenance&, std::string_view schem
 /// disk is met by one plain write, with its reason.
 std::string write_file_atomically(const std::filesystem::path&, const std::function<void(h5::File&)>& fill);
 void write_text_atomically(const std::filesystem::path&, std::string_view text);
+
+/// What has been renamed and removed in a folder stays so, should the machine stop now. `Error` write_failed.
+void sync_folder(const std::filesystem::path& folder);
 
 /// Opens a file that `write_file_atomically` wrote, after a look at every byte of it. `digest`, if given,
 /// gets the seal's. `Error`: input_missing when it is missing or unreadable, bad_input when it is not HDF5,

@@ -69,9 +69,9 @@ std::string frame_name(std::int64_t number)
   return fmt::format("frame-{:05}.hdf", number);
 }
 
-void write_frame(const std::filesystem::path& path, const Frame& frame, const Provenance& provenance)
+std::string write_frame(const std::filesystem::path& path, const Frame& frame, const Provenance& provenance)
 {
-  write_file_atomically(path, [&](h5::File& file) { fill(file, frame, provenance); });
+  return write_file_atomically(path, [&](h5::File& file) { fill(file, frame, provenance); });
 }
 
 void write_series(const std::filesystem::path& folder,

@@ -33,8 +33,9 @@ struct Frame
 /// "frame-00042.hdf"
 std::string frame_name(std::int64_t number);
 
-/// A VTKHDF 1.0 unstructured grid of vertices in 32-bit floats; the same data as /particles/NAME.
-void write_frame(const std::filesystem::path&, const Frame&, const Provenance&);
+/// A VTKHDF 1.0 unstructured grid of vertices in 32-bit floats; the same data as /particles/NAME. Returns the
+/// file's digest.
+std::string write_frame(const std::filesystem::path&, const Frame&, const Provenance&);
 
 /// FOLDER/frames.hdf.series, which gives ParaView the frames' times. `frames`: file name, time in s.
 void write_series(const std::filesystem::path& folder,

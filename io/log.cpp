@@ -5,6 +5,7 @@
 #include <spdlog/sinks/basic_file_sink.h>
 #include <spdlog/sinks/stdout_sinks.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -103,6 +104,14 @@ void Log::say(Level level, const std::string& text)
                                                         : Level::warning;
   if (level >= least) to_screen(prefix + text, level);
   to_file(prefix + text);
+}
+
+void Log::recall(const std::vector<std::string>& earlier)
+{
+  std::vector<std::string> all = earlier;
+  for (const std::string& warning : warnings_)
+    if (std::find(earlier.begin(), earlier.end(), warning) == earlier.end()) all.push_back(warning);
+  warnings_ = std::move(all);
 }
 
 void Log::to_screen(const std::string& text, Level level)

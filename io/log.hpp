@@ -67,6 +67,8 @@ public:
   }
   /// All warnings so far, for the summary.
   const std::vector<std::string>& warnings() const { return warnings_; }
+  /// Puts the warnings of the run's earlier part, which the log file has already, before this part's.
+  void recall(const std::vector<std::string>& earlier);
 
   /// True when stderr is a terminal on which one line may be redrawn.
   bool live() const { return live_; }

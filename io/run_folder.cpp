@@ -1,5 +1,6 @@
 #include "io/run_folder.hpp"
 #include "io/files.hpp"
+#include "io/finish_mark.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -35,13 +36,21 @@ std::optional<std::int64_t> checkpoint_step(const std::string& name)
   return number_in(name, "checkpoint-", ".h5");
 }
 
+constexpr std::string_view aside = ".unusable";
+
+bool is_state(const std::string& name)
+{
+  return name == "final.h5" || checkpoint_step(name);
+}
+
 /// Is this a name under which our programs write?
 bool is_output(const std::string& name)
 {
-  static constexpr std::array fixed = {"final.h5", "history.h5",   "frames.hdf.series",
-                                       "log.txt",  "summary.json", "identity.json"};
-  return std::ranges::find(fixed, name) != fixed.end() || checkpoint_step(name) ||
-         number_in(name, "frame-", ".hdf");
+  static constexpr std::array fixed = {"history.h5",   "frames.hdf.series", "log.txt",
+                                       "summary.json", "identity.json",     finish_mark};
+  return std::ranges::find(fixed, name) != fixed.end() || is_state(name) ||
+         number_in(name, "frame-", ".hdf") ||
+         (name.ends_with(aside) && is_state(name.substr(0, name.size() - aside.size())));
 }
 
 /// Half-written: what a killed write leaves.
@@ -130,7 +139,19 @@ std::string checkpoint_name(std::int64_t step)
   return fmt::format("checkpoint-{:09}.h5", step);
 }
 
-RunFolder::RunFolder(fs::path path, const Identity& identity, bool fresh) : path_(std::move(path))
+std::string difference(const std::vector<std::string>& theirs, const std::vector<std::string>& ours)
+{
+  for (std::size_t k = 0; k < std::max(theirs.size(), ours.size()); ++k)
+  {
+    const std::string a = k < theirs.size() ? theirs[k] : "nothing",
+                      b = k < ours.size() ? ours[k] : "nothing";
+    if (a != b) return fmt::format("was made with '{}' where there is '{}' now", a, b);
+  }
+  return {};
+}
+
+RunFolder::RunFolder(fs::path path, const Identity& identity, bool fresh)
+    : path_(std::move(path)), identity_(identity)
 {
   std::error_code error;
   fs::create_directories(path_, error);
@@ -139,9 +160,8 @@ RunFolder::RunFolder(fs::path path, const Identity& identity, bool fresh) : path
   {
     lock();
     refuse_link(path_ / "log.txt");
-    if (fresh)
-      for (const auto& file : files_in(path_, is_output)) fs::remove(file);
-    check_identity(identity);
+    if (fresh) remove_results();
+    check_identity();
     for (const auto& file : files_in(path_, is_debris)) fs::remove(file);
   }
   catch (const fs::filesystem_error& failure)
@@ -180,12 +200,25 @@ void RunFolder::lock()
     cannot_write(file, std::strerror(errno));
 }
 
-void RunFolder::check_identity(const Identity& identity)
+/// The mark goes first, the identity last: whatever is left in between is an unfinished run of that identity.
+void RunFolder::remove_results() const
+{
+  remove_finish_mark(path_);
+  const auto identity = [](const std::string& name) { return name == "identity.json"; };
+  for (const auto& file : files_in(path_, [&](const std::string& name) { return is_state(name); }))
+    fs::remove(file);
+  for (const auto& file :
+       files_in(path_, [&](const std::string& name) { return is_output(name) && !identity(name); }))
+    fs::remove(file);
+  for (const auto& file : files_in(path_, identity)) fs::remove(file);
+}
+
+void RunFolder::check_identity()
 {
   const fs::path file = path_ / "identity.json";
   if (fs::exists(file))
   {
-    const std::string what = difference(read_identity(file), identity);
+    const std::string what = difference(read_identity(file), identity_);
     if (!what.empty()) taken(path_, what + "; start anew with --fresh or choose another --out");
     resumed_ = true;
     return;
@@ -194,7 +227,31 @@ void RunFolder::check_identity(const Identity& identity)
   if (!strangers.empty())
     taken(path_, fmt::format("it holds {} of an unknown run; start anew with --fresh or choose another --out",
                              strangers.front().filename().string()));
-  write_identity(file, identity);
+  write_identity(file, identity_);
+}
+
+std::vector<std::string> RunFolder::identity_lines() const
+{
+  std::vector<std::string> lines;
+  for (const auto& [key, value] : identity_) lines.push_back(key + " = " + value);
+  return lines;
+}
+
+std::vector<fs::path> RunFolder::states() const
+{
+  std::vector<fs::path> found = checkpoints();
+  const fs::path final = path_ / "final.h5";
+  if (fs::exists(fs::symlink_status(final))) found.insert(found.begin(), final);
+  return found;
+}
+
+void RunFolder::set_aside(const fs::path& state) const
+{
+  fs::path other = state;
+  other += aside;
+  std::error_code error;
+  fs::rename(state, other, error);
+  if (error) cannot_write(state, error.message());
 }
 
 std::vector<fs::path> RunFolder::checkpoints() const

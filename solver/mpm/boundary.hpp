@@ -33,5 +33,7 @@ struct Boundary
   virtual void measure_work(const Domain&, double /*dt*/, Energies& /*now*/) const {}
   /// What the ground remembers here, for checkpoints.
   virtual void visit_state(StateVisitor&) {}
+  /// What of it cannot be once it has been loaded, in words; empty: nothing. The particles are in place.
+  virtual std::string state_problem(const Domain&) const { return {}; }
 };
 } // namespace mpm

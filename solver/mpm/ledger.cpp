@@ -146,6 +146,7 @@ void visit_ledger(StateVisitor& visitor, Ledger& ledger)
   list.member("moment_y", "kg m/m", &Ledger::moment_y);
   list.member("gravity_x", "m/s2", &Ledger::gravity_x);
   list.member("gravity_y", "m/s2", &Ledger::gravity_y);
+  if (one.size() != 1) throw std::runtime_error("energy holds no ledger");
   ledger = one.front();
 }
 } // namespace mpm

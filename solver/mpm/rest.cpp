@@ -1,6 +1,8 @@
 #include "solver/mpm/domain.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <stdexcept>
 
 namespace mpm
 {
@@ -145,6 +147,13 @@ void visit_rest(StateVisitor& visitor, Domain& domain)
   visitor.doubles("greatest_speed", "m/s", greatest);
   visitor.integers("asleep", asleep);
   visitor.integers("skipped", skipped);
+  if (settings.size() != 2 || skipped.size() != 1 || skipped[0] < 0 ||
+      greatest.size() != domain.homes.size() || asleep.size() != domain.homes.size())
+    throw std::runtime_error("rest is that of other homes");
+  for (const double value : {settings[0], settings[1]})
+    if (!(std::isfinite(value) && value >= 0)) throw std::runtime_error("rest/settings cannot be");
+  for (const double value : greatest)
+    if (!(value >= 0)) throw std::runtime_error("rest/greatest_speed cannot be");
   domain.rest.below = settings[0];
   domain.rest.watched = settings[1];
   domain.rest.skipped = skipped[0];

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,7 +17,8 @@ struct StateVisitor
   virtual void integers(std::string_view name, std::vector<std::int64_t>& values) = 0;
 };
 
-/// A list of records as one array per member.
+/// A list of records as one array per member. What is loaded has as many values of each member, or
+/// std::runtime_error is thrown.
 template <class T>
 class RecordVisitor
 {
@@ -35,7 +37,7 @@ public:
     std::vector<double> column;
     for (T& item : list_) column.push_back(access(item));
     visitor_.doubles(prefix_ + std::string(name), unit, column);
-    list_.resize(column.size());
+    resize(name, column.size());
     for (std::size_t k = 0; k < column.size(); ++k) access(list_[k]) = column[k];
   }
   template <class Access>
@@ -44,14 +46,28 @@ public:
     std::vector<std::int64_t> column;
     for (T& item : list_) column.push_back(access(item));
     visitor_.integers(prefix_ + std::string(name), column);
-    list_.resize(column.size());
+    resize(name, column.size());
     for (std::size_t k = 0; k < column.size(); ++k)
+    {
       access(list_[k]) = static_cast<std::decay_t<decltype(access(list_[k]))>>(column[k]);
+      if (access(list_[k]) != column[k])
+        throw std::runtime_error(prefix_ + std::string(name) + " holds " + std::to_string(column[k]));
+    }
   }
 
 private:
+  void resize(std::string_view name, std::size_t count)
+  {
+    if (visited_ && count != list_.size())
+      throw std::runtime_error(prefix_ + std::string(name) + " has " + std::to_string(count) +
+                               " values for " + std::to_string(list_.size()));
+    list_.resize(count);
+    visited_ = true;
+  }
+
   StateVisitor& visitor_;
   std::string prefix_;
   std::vector<T>& list_;
+  bool visited_ = false; ///< whether a member has fixed how many there are
 };
 } // namespace mpm

@@ -29,7 +29,13 @@ public:
     return std::isnan(slid_) ? share_ : share_ * std::clamp(1 - (time - slid_) / fade, 0.0, 1.0);
   }
   void save(h5::Group& group) const { group.attribute("slid", slid_); }
-  void load(const h5::Group& group) { slid_ = group.attribute_double("slid"); }
+  /// `Error` bad_input when it cannot be of a run that has come to `now` (s).
+  void load(const h5::Group& group, double now)
+  {
+    slid_ = group.attribute_double("slid");
+    if (slid_ < 0 || slid_ > now)
+      throw Error(exit_code::bad_input, group.where() + ": the ground slid at a time that has not come");
+  }
 
 private:
   double share_;

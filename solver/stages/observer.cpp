@@ -10,8 +10,6 @@ namespace mpm
 {
 namespace
 {
-constexpr double slide_every = 0.1; // s between samples of the slide's measures and of the energy
-
 std::array<double, 2> displacement_of(const Domain& domain, int k)
 {
   const Particles& p = domain.particles;
@@ -151,7 +149,7 @@ void Observer::look(const Clock& clock, bool first)
 void Observer::look_last(const Clock& clock)
 {
   if (history_.times(slow_).back() < clock.time()) sample_slide(clock);
-  if (frames_.back().second < clock.time()) write_frame(clock);
+  if (frames_.back().time < clock.time()) write_frame(clock);
 }
 
 void Observer::sample_gauges(const Clock& clock)
@@ -233,9 +231,9 @@ void Observer::write_frame(const Clock& clock)
               frame.materials.begin() + main.material_begin[m + 1],
               main.materials[m].origin < 0 ? m : main.materials[m].origin);
   const std::string name = frame_name(static_cast<std::int64_t>(frames_.size()));
-  mpm::write_frame(*session_.folder / name, frame, session_.provenance());
-  frames_.push_back({name, clock.time()});
-  write_series(session_.folder->path(), frames_);
+  const std::string digest = mpm::write_frame(*session_.folder / name, frame, session_.provenance());
+  frames_.push_back({name, clock.time(), digest});
+  write_frame_times();
 }
 
 void Observer::save(h5::File& file) const
@@ -244,27 +242,30 @@ void Observer::save(h5::File& file) const
   h5::Group rows = group.create_group("history");
   history_.save(rows);
   std::vector<double> times;
-  for (const auto& [name, time] : frames_) times.push_back(time);
+  std::vector<std::string> digests;
+  for (const WrittenFrame& frame : frames_)
+  {
+    times.push_back(frame.time);
+    digests.push_back(frame.digest);
+  }
   group.write("frame_times", std::span<const double>(times), {times.size()}, "s");
+  group.write_strings("frame_digests", digests);
   group.write("gauge_velocity", std::span<const double>(last_velocity_), {last_velocity_.size()}, "m/s");
   group.attribute("gauge_time", last_time_);
   h5::Group slide = group.create_group("slide");
   slide_.save(slide);
 }
 
-void Observer::load(const h5::File& file)
+void Observer::write_frame_times() const
 {
-  const h5::Group group = file.open_group("output");
-  history_.load(group.open_group("history"));
-  for (const double time : group.read_doubles("frame_times"))
-    frames_.push_back({frame_name(static_cast<std::int64_t>(frames_.size())), time});
-  last_velocity_ = group.read_doubles("gauge_velocity");
-  last_time_ = group.attribute_double("gauge_time");
-  slide_.load(group.open_group("slide"));
+  std::vector<std::pair<std::string, double>> times;
+  for (const WrittenFrame& frame : frames_) times.push_back({frame.name, frame.time});
+  write_series(session_.folder->path(), times);
 }
 
 void Observer::write(double until) const
 {
+  write_frame_times();
   history_.write(*session_.folder / "history.h5", session_.provenance(),
                  [&](h5::File& file)
                  {

@@ -6,6 +6,8 @@
 
 namespace mpm
 {
+inline constexpr double slide_every = 0.1; ///< s between samples of the slide's measures and of the energy
+
 /// What a seismic run writes down while it goes: gauges, free field, slide, energy, frames.
 class Observer
 {
@@ -18,8 +20,12 @@ public:
   /// Looks at the end of the stage, where it is not due anyway: slide and frame.
   void look_last(const Clock& clock);
   void save(h5::File& file) const;
-  void load(const h5::File& file);
-  /// Writes history.h5, the motion as applied until `until` s.
+  /// What it wrote down until the state that the clock has reached; `first_step` is the case's dt (s).
+  /// `Error` bad_input when that cannot be, folder_taken when a frame of it is not in the folder any more.
+  void load(const h5::File& file, const Clock& clock, double first_step);
+  /// Names of the files that it has written.
+  std::vector<std::string> files() const;
+  /// Writes history.h5, the motion as applied until `until` s, and frames.hdf.series.
   void write(double until) const;
   const Slide& slide() const { return slide_; }
   /// Peaks for the summary.
@@ -46,6 +52,7 @@ private:
   void sample_energy();
   void sample_base();
   void write_frame(const Clock& clock);
+  void write_frame_times() const;
 
   Session& session_;
   Model& model_;
@@ -59,6 +66,14 @@ private:
   std::vector<Side> sides_;
   std::vector<double> last_velocity_; ///< of the gauges at their last sample, m/s
   double last_time_ = 0;
-  std::vector<std::pair<std::string, double>> frames_;
+  struct WrittenFrame
+  {
+    std::string name;
+    double time; ///< s
+    std::string digest;
+  };
+  /// The frames of these times (s) and digests, which must be in the folder.
+  void load_frames(const std::vector<double>& times, const std::vector<std::string>& digests);
+  std::vector<WrittenFrame> frames_;
 };
 } // namespace mpm

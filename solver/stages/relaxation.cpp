@@ -60,8 +60,14 @@ void Relaxation::set_phase(Phase phase)
 void Relaxation::load(const h5::File& file)
 {
   const h5::Group group = file.open_group("relaxation");
-  set_phase(group.attribute_int("plastic") ? Phase::plastic : Phase::elastic);
-  held_ = group.attribute_int("held");
+  const std::int64_t plastic = group.attribute_int("plastic"), held = group.attribute_int("held");
+  unbalanced_ = group.attribute_double("unbalanced");
+  kinetic_ = group.attribute_double("kinetic");
+  if ((plastic != 0 && plastic != 1) || held < 0 || held > held_checks ||
+      !(unbalanced_ >= 0 && kinetic_ >= 0))
+    throw Error(exit_code::bad_input, group.where() + ": no run leaves such a phase; use another file");
+  set_phase(plastic ? Phase::plastic : Phase::elastic);
+  held_ = held;
 }
 
 void Relaxation::save(const std::string& name, const Clock& clock)
@@ -154,7 +160,7 @@ int Relaxation::run(Clock& clock)
   session_.log.info("static stage: {} particles, dt = {:.3e} s, gravity in {} s",
                     model_.main->particles.size(), clock.dt, session_.scene.statics.ramp);
   session_.loop_begins(clock.step, model_);
-  bool done = false;
+  bool done = session_.at_end();
   while (!done && clock.time() < until.at_most)
   {
     const bool measure = (clock.step + 1) % check_every == 0;
@@ -196,8 +202,8 @@ int Relaxation::run(Clock& clock)
     session_.finish("static", exit_code::not_converged, model_, clock, measures);
     return exit_code::not_converged;
   }
-  save("final.h5", clock);
-  session_.folder->prune(0);
+  if (!session_.at_end())
+    save("final.h5", clock); // a state that is whole stays: what was made from it names it
   session_.finish("static", exit_code::done, model_, clock, measures);
   return exit_code::done;
 }

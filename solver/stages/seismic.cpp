@@ -35,23 +35,20 @@ double choose_step(const Case& scene, const Domain& main)
   return every / std::ceil(every / most);
 }
 
-/// Loads the static state and checks that it is one, and of this ground.
-void load_static_state(const Session& session, Model& model)
+/// Loads the static state and checks that it is one, and of this ground; returns the file's digest.
+std::string load_static_state(const Session& session, Model& model)
 {
-  const h5::File file = open_complete(session.options.from);
+  std::string digest;
+  const h5::File file = open_complete(session.options.from, &digest);
   const auto refuse = [&](const std::string& why)
   { throw Error(exit_code::bad_input, session.options.from.string() + ": " + why); };
-  if (!file.exists("clock") || file.open_group("clock").attribute_string("stage") != "static" ||
-      !file.exists("relaxation"))
-    refuse("is no static state; give the final.h5 of mpm-static");
-  const std::vector<std::string> theirs = file.read_strings("ground"), ours = ground_settings(session.scene);
-  for (std::size_t k = 0; k < std::max(theirs.size(), ours.size()); ++k)
-  {
-    const std::string a = k < theirs.size() ? theirs[k] : "nothing",
-                      b = k < ours.size() ? ours[k] : "nothing";
-    if (a != b)
-      refuse("was made with '" + a + "' where the case has '" + b + "'; run mpm-static for this case");
-  }
+  if (file.attribute_string("schema") != checkpoint_schema || !file.exists("relaxation") ||
+      file.attribute_string("stage", "clock") != "static")
+    refuse("is no static state of this version; give the final.h5 of mpm-static");
+  if (file.attribute_int("last", "clock") != 1)
+    refuse("the ground had not settled yet; give the final.h5 of mpm-static");
+  const std::string other = difference(file.read_strings("ground"), ground_settings(session.scene));
+  if (!other.empty()) refuse(other + "; run mpm-static for this case");
   model.for_each_domain(
       [&](Domain& domain, const std::string& column)
       {
@@ -60,14 +57,17 @@ void load_static_state(const Session& session, Model& model)
         else
           load_particles(file.open_group("free_field/" + column), domain);
       });
+  return digest;
 }
 
 class Shaking
 {
 public:
-  Shaking(Session& session, Model& model, const Motion& motion)
-      : session_(session), model_(model), motion_(motion), observer_(session, model, *motion.wave),
-        energy_(session, model), flip_(session.scene.seismic.flip_blend, session.scene.seismic.flip_ends)
+  /// `from`: digest of the static state, empty for none.
+  Shaking(Session& session, Model& model, const Motion& motion, std::string from)
+      : session_(session), model_(model), motion_(motion), from_(std::move(from)),
+        observer_(session, model, *motion.wave), energy_(session, model),
+        flip_(session.scene.seismic.flip_blend, session.scene.seismic.flip_ends)
   {
   }
 
@@ -82,11 +82,12 @@ public:
 
   void resume(const h5::File& file, Clock& clock)
   {
+    const double first_step = clock.dt;
     add_seismic_boundaries(model_, session_.scene, motion_.wave, true);
-    load_model(file, model_, clock);
-    observer_.load(file);
-    self_driven_.load(file.open_group("motion"));
-    flip_.load(file.open_group("motion"));
+    load_model(file, model_, clock, session_.scene.seismic.duration);
+    observer_.load(file, clock, first_step);
+    self_driven_.load(file.open_group("motion"), clock.time());
+    flip_.load(file.open_group("motion"), clock.time());
     fade_when_self_driven();
   }
 
@@ -125,7 +126,7 @@ private:
     session_.log.info("seismic stage: {} particles, dt = {:.3e} s, {:g} s", model_.main->particles.size(),
                       clock.dt, duration);
     session_.loop_begins(clock.step, model_);
-    while (clock.time() < duration * (1 - 1e-9))
+    while (!session_.at_end() && clock.time() < duration * (1 - 1e-9))
     {
       model_.for_each_domain([&](Domain& domain, const std::string&)
                              { domain.flip_blend = flip_.at(clock.time()); });
@@ -154,14 +155,16 @@ private:
     }
     progress.finish(moment());
     report_boundaries(session_, model_);
-    observer_.look_last(clock);
+    if (!session_.at_end()) observer_.look_last(clock);
     report_end(clock);
     session_.log.info("{}", slide_text(observer_.slide().summary()));
     report_rest(clock);
-    save("final.h5", clock);
+    if (session_.at_end())
+      observer_.write(applied_until(clock));
+    else
+      save("final.h5", clock);
     energy_.report();
-    session_.folder->prune(0);
-    session_.finish("seismic", exit_code::done, model_, clock, summary(clock));
+    session_.finish("seismic", exit_code::done, model_, clock, summary(clock), observer_.files());
     return exit_code::done;
   }
 
@@ -248,13 +251,14 @@ private:
     const double end = motion_.wave->fade.end();
     result["motion_ended"] = std::isfinite(end) ? nlohmann::json(end) : nlohmann::json();
     for (const auto& [key, value] : motion_.identity) result["digests"][key] = value;
-    if (!session_.options.from.empty()) result["digests"]["from"] = sha256_file(session_.options.from);
+    if (!from_.empty()) result["digests"]["from"] = from_;
     return result;
   }
 
   Session& session_;
   Model& model_;
   const Motion& motion_;
+  std::string from_;
   Observer observer_;
   EnergyWatch energy_;
   SelfDriven self_driven_;
@@ -290,9 +294,17 @@ int run_seismic(Session& session)
 
   // 1. The motion and the scene.
   const Motion motion = load_motion(session);
-  Model model = make_model(scene);
+  Model model;
   Clock clock;
-  clock.dt = choose_step(scene, *model.main);
+  std::string from;
+  const auto begin = [&]
+  {
+    model = make_model(scene);
+    clock = {};
+    clock.dt = choose_step(scene, *model.main);
+    if (!options.from.empty()) from = load_static_state(session, model);
+  };
+  begin();
   if (scene.seismic.duration / clock.dt > most_steps)
     throw Error(
         exit_code::bad_input,
@@ -303,36 +315,39 @@ int run_seismic(Session& session)
   if (options.check)
   {
     report_wave_fidelity(session, clock.dt, motion.wave.get());
+    model = make_model(scene);
     return predict_shaking(session, model, clock);
   }
-  if (options.from.empty())
-    session.log.info("no gravity: starts from a stress-free state");
-  else
-    load_static_state(session, model);
+  if (options.from.empty()) session.log.info("no gravity: starts from a stress-free state");
 
   // 2. The folder: ours, finished, or to be gone on with.
   RunFolder::Identity identity{{"stage", "seismic"}};
   for (const auto& setting : settings_with_digests(scene))
-    if (!makes_motion(setting.first)) identity.push_back(setting);
+    if (!makes_motion(setting.first) && !setting.first.starts_with("output.checkpoint")) // when, not what
+      identity.push_back(setting);
   identity.push_back({"seismic.duration", number_text(scene.seismic.duration) + " s"});
   identity.insert(identity.end(), motion.identity.begin(), motion.identity.end());
-  if (!options.from.empty()) identity.push_back({"from", sha256_file(options.from)});
+  if (!from.empty()) identity.push_back({"from", from});
   session.open_folder(identity);
-  if (std::filesystem::exists(*session.folder / "final.h5"))
-  {
-    session.log.info("{}: is finished already; --fresh starts anew", (*session.folder / "final.h5").string());
-    return exit_code::done;
-  }
+  if (session.finished_already()) return exit_code::done;
 
   // 3. The state: where an interrupted run stopped, or the switch from the static state.
-  Shaking shaking(session, model, motion);
-  if (const auto file = session.newest_checkpoint())
-    shaking.resume(*file, clock);
-  else
-    shaking.start(clock);
+  std::optional<Shaking> shaking;
+  const auto load = [&](const h5::File& file)
+  {
+    begin();
+    shaking.emplace(session, model, motion, from);
+    shaking->resume(file, clock);
+  };
+  if (!session.resume(load))
+  {
+    begin();
+    shaking.emplace(session, model, motion, from);
+    shaking->start(clock);
+  }
 
   // 4. Shaking and run-out.
-  return shaking.run(clock);
+  return shaking->run(clock);
 }
 } // namespace
 } // namespace mpm

@@ -23,9 +23,13 @@ void SelfDriven::save(h5::Group& group) const
   group.attribute("decided", decided_);
 }
 
-void SelfDriven::load(const h5::Group& group)
+void SelfDriven::load(const h5::Group& group, double now)
 {
   since_ = group.attribute_double("since");
   decided_ = group.attribute_double("decided");
+  for (const double time : {since_, decided_})
+    if (time < 0 || time > now)
+      throw Error(exit_code::bad_input,
+                  group.where() + ": the slide is self-driven at a time that has not come");
 }
 } // namespace mpm

@@ -22,7 +22,8 @@ public:
   double decided() const { return decided_; }
 
   void save(h5::Group& group) const;
-  void load(const h5::Group& group);
+  /// `Error` bad_input when it cannot be of a run that has come to `now` (s).
+  void load(const h5::Group& group, double now);
 
 private:
   double since_ = NAN; ///< since when the criterion holds, s

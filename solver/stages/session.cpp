@@ -1,6 +1,7 @@
 #include "solver/stages/session.hpp"
 
 #include "io/checkpoint.hpp"
+#include "io/finish_mark.hpp"
 #include "io/signals.hpp"
 #include "solver/mpm/parallel.hpp"
 #include "solver/mpm/waiting.hpp"
@@ -12,7 +13,6 @@ namespace mpm
 {
 namespace
 {
-constexpr std::string_view checkpoint_schema = "seismpm-checkpoint/1";
 constexpr double courant_limit = 0.7;    // beyond it the step is shortened (METHODS section 7),
 constexpr double stability_limit = 0.78; // or beyond this one in a case that starts that fast
 
@@ -79,8 +79,11 @@ void Session::write_checkpoint(const std::string& name, std::string_view stage, 
                           file.attribute("profile", scene.profile, "case");
                           file.write_strings("overrides", scene.overrides);
                           file.write_strings("ground", ground_settings(scene));
+                          file.write_strings("identity", folder->identity_lines());
+                          file.write_strings("warnings", log.warnings());
                           h5::Group time = file.create_group("clock");
                           time.attribute("stage", stage);
+                          time.attribute("last", name == "final.h5");
                           time.attribute("vectors", vector_path);
                           time.attribute("step", clock.step);
                           time.attribute("time", clock.time());
@@ -99,29 +102,6 @@ void Session::write_checkpoint(const std::string& name, std::string_view stage, 
   last_checkpoint_ = Wall::now();
 }
 
-std::optional<h5::File> Session::newest_checkpoint()
-{
-  for (const auto& path : folder->checkpoints())
-  {
-    try
-    {
-      h5::File file = open_complete(path);
-      log.info("goes on from {}", path.string());
-      const std::string vectors = file.open_group("clock").attribute_string("vectors");
-      if (vectors != vector_path)
-        log.warn("{} was computed with {} instructions, this build uses {}: the run goes on, but not bit for "
-                 "bit as one on one machine",
-                 path.string(), vectors, vector_path);
-      return file;
-    }
-    catch (const Error& error)
-    {
-      log.warn("{}; trying an older one", error.what());
-    }
-  }
-  return std::nullopt;
-}
-
 void Session::loop_begins(std::int64_t step, const Model& model)
 {
   stop_at_a_step();
@@ -131,7 +111,7 @@ void Session::loop_begins(std::int64_t step, const Model& model)
 }
 
 void Session::finish(std::string_view stage, int exit, const Model& model, const Clock& clock,
-                     nlohmann::json more)
+                     nlohmann::json more, std::vector<std::string> results)
 {
   const double loop = std::chrono::duration<double>(Wall::now() - loop_start_).count();
   const double steps = static_cast<double>(clock.step - first_step_);
@@ -167,27 +147,16 @@ void Session::finish(std::string_view stage, int exit, const Model& model, const
   summary.update(facts);
   summary.update(more);
   write_text_atomically(*folder / "summary.json", summary.dump(2) + "\n");
+  if (exit == exit_code::done)
+  {
+    results.insert(results.end(), {"final.h5", "summary.json", "identity.json"});
+    write_finish_mark(folder->path(), results);
+    folder->prune(0);
+  }
   log.info("{} ends with {} after {}: {} steps, {:.1f} ns per particle-step and core", stage, exit,
            duration_text(wall_seconds()), clock.step - first_step_,
            summary["ns_per_particle_step"].get<double>());
   log.info("of it {} ns", phases);
-}
-
-void load_model(const h5::File& file, Model& model, Clock& clock)
-{
-  const h5::Group time = file.open_group("clock");
-  clock.step = time.attribute_int("step");
-  clock.dt = time.attribute_double("dt");
-  clock.start_time = time.attribute_double("start_time");
-  clock.start_step = time.attribute_int("start_step");
-  model.for_each_domain(
-      [&](Domain& domain, const std::string& column)
-      {
-        if (column.empty())
-          load_domain(file, domain);
-        else
-          load_domain(file.open_group("free_field/" + column), domain);
-      });
 }
 
 std::vector<std::pair<std::string, std::string>> settings_with_digests(const Case& scene)

@@ -12,6 +12,9 @@
 
 namespace mpm
 {
+/// Of all states that a run goes on from.
+inline constexpr std::string_view checkpoint_schema = "seismpm-checkpoint/2";
+
 /// Step counter and time: t = t0 + (k - k0) dt, so that no rounding piles up.
 struct Clock
 {
@@ -46,10 +49,19 @@ public:
   /// Writes the state of a stage: `fill` adds what is the stage's own.
   void write_checkpoint(const std::string& name, std::string_view stage, Model& model, const Clock& clock,
                         const std::function<void(h5::File&)>& fill);
-  /// Newest checkpoint in the folder that is whole, or none; says which ones are not.
-  std::optional<h5::File> newest_checkpoint();
-  /// Ends the run's log and writes summary.json.
-  void finish(std::string_view stage, int exit, const Model& model, const Clock& clock, nlohmann::json more);
+  /// Whether the folder holds the finished run, with all its files whole; says so. What is not whole is told,
+  /// and the run is no longer finished.
+  bool finished_already();
+  /// Goes on from the best state in the folder: `load` takes it from the file, or throws. One that is damaged
+  /// or cannot be is told and passed over for an older one. False: there is none, the run starts from the
+  /// beginning. `Error` folder_taken when all that a state lacks is a result file that goes with it.
+  bool resume(const std::function<void(const h5::File&)>& load);
+  /// Whether the state that was resumed is the run's last.
+  bool at_end() const { return at_end_; }
+  /// Writes summary.json and ends the run's log. With `exit` done, marks the folder as finished by the files
+  /// named in `results` beside those that every run has.
+  void finish(std::string_view stage, int exit, const Model& model, const Clock& clock, nlohmann::json more,
+              std::vector<std::string> results = {});
   Provenance provenance() const;
   double wall_seconds() const;
   void loop_begins(std::int64_t step, const Model& model);
@@ -63,7 +75,11 @@ public:
 private:
   using Wall = std::chrono::steady_clock;
   Wall::time_point start_ = Wall::now(), last_checkpoint_ = start_, loop_start_ = start_;
+  /// Opens a state of this very run, or throws.
+  h5::File open_state(const std::filesystem::path& path);
+
   std::int64_t first_step_ = 0;
+  bool at_end_ = false;
   std::array<double, phase_names.size()> earlier_{}; ///< times of the phases when the loop began, s
 };
 
@@ -73,8 +89,10 @@ void check_step(Session& session, const Model& model, double safety, Clock& cloc
 /// Parses the command line, runs `stage` and maps every way to end to its exit code (INTERFACE: exit codes).
 int run_program(int argc, char** argv, const std::string& name, int (*stage)(Session&));
 
-/// Loads clock and domains of a checkpoint of the same stage.
-void load_model(const h5::File& file, Model& model, Clock& clock);
+/// Loads clock and domains of a checkpoint of the same stage, which cannot be later than `at_most` (s). The
+/// clock holds the step with which the case begins. `Error` bad_input when no run of the case can have left
+/// such a state.
+void load_model(const h5::File& file, Model& model, Clock& clock, double at_most);
 
 /// The case's settings, each named file followed by the digest of what it holds.
 std::vector<std::pair<std::string, std::string>> settings_with_digests(const Case& scene);

@@ -269,17 +269,25 @@ void Slide::save(h5::Group& group) const
   group.attribute("time", time_);
 }
 
-void Slide::load(const h5::Group& group)
+void Slide::load(const h5::Group& group, double now)
 {
+  const auto refuse = [&](const std::string& name)
+  { throw Error(exit_code::bad_input, group.where(name) + ": no run leaves that; use another file"); };
   departure_ = group.read_doubles("departure");
+  for (const double time : departure_)
+    if (time < 0 || time > now) refuse("departure");
+  if (departure_.size() != std::size_t(model_.main->particles.size())) refuse("departure");
   const std::vector<double> peaks = group.read_doubles("peaks");
+  if (peaks.size() != 12) refuse("peaks");
   std::size_t k = 0;
   for (Peak* p : {&area_, &velocity_99_, &velocity_point_})
   {
-    *p = {peaks.at(k), peaks.at(k + 1), peaks.at(k + 2), peaks.at(k + 3)};
+    *p = {peaks[k], peaks[k + 1], peaks[k + 2], peaks[k + 3]};
+    if (!(p->value >= 0) || p->time < 0 || p->time > now) refuse("peaks");
     k += 4;
   }
   time_ = group.attribute_double("time");
+  if (!(time_ >= 0 && time_ <= now)) refuse("time");
   now_ = measure();
 }
 } // namespace mpm

@@ -65,7 +65,8 @@ public:
   void write(h5::File& file) const;
 
   void save(h5::Group& group) const;
-  void load(const h5::Group& group);
+  /// `Error` bad_input when it cannot be of a run that has come to `now` (s).
+  void load(const h5::Group& group, double now);
 
 private:
   struct Peak

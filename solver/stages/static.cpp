@@ -20,14 +20,21 @@ int run_static(Session& session)
                                           ": static.gravity: is 0, so there is no static state to "
                                           "find; run mpm-seismic without --from");
   // 1. The undeformed scene between kinematic walls.
-  Model model = make_model(scene);
-  add_static_boundaries(model, scene);
-  const double shaking_step = scene.safety * scene.grid.spacing / greatest_wave_speed(*model.main);
+  Model model;
   Clock clock;
-  if (scene.statics.mass_scaling) scale_masses(model);
-  clock.dt = scene.statics.safety * scene.grid.spacing / greatest_wave_speed(*model.main);
+  double shaking_step = 0;
+  const auto begin = [&]
+  {
+    model = make_model(scene);
+    clock = {};
+    add_static_boundaries(model, scene);
+    shaking_step = scene.safety * scene.grid.spacing / greatest_wave_speed(*model.main);
+    if (scene.statics.mass_scaling) scale_masses(model);
+    clock.dt = scene.statics.safety * scene.grid.spacing / greatest_wave_speed(*model.main);
+  };
   if (session.options.check)
   {
+    begin();
     report_wave_fidelity(session, shaking_step, nullptr);
     return predict_relaxation(session, model, clock);
   }
@@ -41,24 +48,26 @@ int run_static(Session& session)
     if (!of_the_shaking && !key.starts_with("output")) identity.push_back({key, value});
   }
   session.open_folder(identity);
-  if (std::filesystem::exists(*session.folder / "final.h5"))
+  if (session.finished_already()) return exit_code::done;
+  std::optional<Relaxation> relaxation;
+  const auto load = [&](const h5::File& file)
   {
-    session.log.info("{}: is finished already; --fresh starts anew", (*session.folder / "final.h5").string());
-    return exit_code::done;
-  }
-  Relaxation relaxation(session, model);
-  if (const auto file = session.newest_checkpoint())
+    begin();
+    relaxation.emplace(session, model);
+    load_model(file, model, clock, scene.statics.until.at_most);
+    relaxation->load(file);
+  };
+  if (!session.resume(load))
   {
-    load_model(*file, model, clock);
-    relaxation.load(*file);
+    begin();
+    relaxation.emplace(session, model);
+    relaxation->start();
   }
-  else
-    relaxation.start();
 
   report_wave_fidelity(session, shaking_step, nullptr);
 
   // 3. Gravity grows, the ground settles: elastic first, then plastic.
-  return relaxation.run(clock);
+  return relaxation->run(clock);
 }
 } // namespace
 } // namespace mpm

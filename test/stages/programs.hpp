@@ -231,6 +231,14 @@ inline void kill_after_checkpoints(const Bench& bench, const std::string& progra
   CHECK_FALSE(fs::exists(out / "final.h5"));
 }
 
+/// Changes one bit in the middle of a file.
+inline void flip_a_bit(const fs::path& file)
+{
+  std::string bytes = contents(file);
+  bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 4);
+  put(file, bytes);
+}
+
 inline void tear(const fs::path& file)
 {
   fs::resize_file(file, fs::file_size(file) / 2);

@@ -38,10 +38,12 @@ inline void collect(const h5::Group& group, const std::string& path, Contents& f
 {
   for (const char* name :
        {"step", "time", "dt", "start_time", "start_step", "drift", "plastic", "held", "unbalanced", "kinetic",
-        "begin", "end", "gauge_time", "trigger_time", "since", "decided"})
+        "begin", "end", "gauge_time", "trigger_time", "since", "decided", "slid", "last"})
     if (group.has_attribute(name)) found[path + "@" + name] = bytes(group.attribute_doubles(name));
   for (const std::string& name : group.children())
   {
+    if (name == "frame_digests" || name == "warnings")
+      continue; // tell the time of day, and what befell the run
     if (code_of([&] { group.open_group(name); }) == 0)
       collect(group.open_group(name), path + name + "/", found);
     else

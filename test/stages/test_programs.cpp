@@ -78,9 +78,14 @@ TEST_CASE("the option --check tells the cost, runs and writes nothing, and exits
   const Ending statics = bench.run("mpm-static", {bench.path("case.yaml"), "--check"});
   CHECK(statics.code == 0);
   CHECK_THAT(statics.said, Contains("particles") && Contains("MB") && Contains("steps") && Contains("c_s"));
-  const Ending seismic =
-      bench.run("mpm-seismic", {bench.path("case.yaml"), "--from", bench.path("static/final.h5"), "--out",
-                                bench.path("out"), "--check"});
+  const Ending without = bench.run_seismic("out", {"--check"}); // as the run itself
+  CHECK(without.code == 66);
+  CHECK_THAT(without.said, Contains("static/final.h5"));
+  bench.make_static();
+  const Ending other = bench.run_seismic("out", {"--check", "--set", "grid.spacing=0.5 m"});
+  CHECK(other.code == 65);
+  CHECK_THAT(other.said, Contains("grid.spacing"));
+  const Ending seismic = bench.run_seismic("out", {"--check"});
   CHECK(seismic.code == 0);
   CHECK_THAT(seismic.said, Contains("carried to") && Contains("Arias"));
   CHECK_FALSE(fs::exists(bench / "out"));

@@ -47,6 +47,6 @@ TEST_CASE("the decision goes on across a restart", "[stages]")
   h5::File file = h5::File::in_memory("end");
   h5::Group group = file.create_group("motion");
   first.save(group);
-  second.load(group);
+  second.load(group, 3.5);
   CHECK(second.decide(moving(1), 4.0));
 }

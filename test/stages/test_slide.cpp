@@ -122,7 +122,7 @@ TEST_CASE("the greatest velocities are kept with time and place, also across a r
   h5::Group group = file.create_group("slide");
   block.slide.save(group);
   Slide again(block.model, block.scene);
-  again.load(group);
+  again.load(group, 2);
   CHECK(again.summary() == summary);
   CHECK(again.trigger_time() == block.slide.trigger_time());
 }

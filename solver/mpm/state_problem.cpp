@@ -1,0 +1,130 @@
+#include "solver/mpm/state_problem.hpp"
+
+#include <cmath>
+#include <cstdlib>
+
+namespace mpm
+{
+namespace
+{
+constexpr int farthest_block = 1 << 24; // nodes are counted in int
+constexpr double greatest_drift = 1;    // cells that a tile's margin holds
+constexpr double rounding_of_mass = 1e-6;
+
+std::string particle(std::int64_t k)
+{
+  return "particle " + std::to_string(k) + " ";
+}
+
+bool finite(const std::vector<double>& values)
+{
+  double sum = 0; // stays finite only if all of them are
+  for (const double value : values) sum += value * 0;
+  return sum == 0;
+}
+
+std::string place_particles(Domain& domain)
+{
+  const Particles& p = domain.particles;
+  domain.place.assign(p.id.size(), -1);
+  for (std::size_t k = 0; k < p.id.size(); ++k)
+  {
+    const std::int64_t id = p.id[k];
+    if (id < 0 || id >= std::int64_t(p.id.size()))
+      return "there is no particle with the id " + std::to_string(id);
+    if (domain.place[id] >= 0) return particle(id) + "is there twice";
+    domain.place[id] = static_cast<int>(k);
+  }
+  return {};
+}
+
+std::string fields_problem(const Domain& domain, const std::vector<double>& masses)
+{
+  const Particles& p = domain.particles;
+  for (const ParticleField& field : particle_fields)
+    for (int c = 0; c < field.components; ++c)
+      if (!finite(p.*field.data[c])) return std::string(field.name) + " is not finite everywhere";
+  for (int k = 0; k < p.size(); ++k)
+  {
+    const double wanted = masses[p.id[k]];
+    if (!(std::fabs(p.mass[k] - wanted) <= rounding_of_mass * wanted))
+      return particle(p.id[k]) + "has a mass of " + std::to_string(p.mass[k]) +
+             " kg/m where the case gives it " + std::to_string(wanted);
+    if (!(p.volume[k] > 0)) return particle(p.id[k]) + "has no volume";
+  }
+  for (std::size_t m = 0; m < domain.materials.size(); ++m)
+  {
+    const Material& material = domain.materials[m];
+    const std::size_t count = domain.material_begin[m + 1] - domain.material_begin[m];
+    for (std::size_t f = 0; f < material.state.size(); ++f)
+    {
+      const std::string name = material.name + "/" + std::string(material.state_fields()[f].name);
+      if (material.state[f].size() != count)
+        return name + " has " + std::to_string(material.state[f].size()) + " values for " +
+               std::to_string(count) + " particles";
+      if (!finite(material.state[f])) return name + " is not finite everywhere";
+    }
+    if (const auto* strain = material.field("plastic_strain"))
+      for (const double value : *strain)
+        if (value < 0) return material.name + "/plastic_strain is negative somewhere";
+  }
+  return {};
+}
+
+/// The homes hold each particle once, in ranges of its material, and each near its block.
+std::string homes_problem(const Domain& domain)
+{
+  const Particles& p = domain.particles;
+  std::vector<bool> held(p.size(), false);
+  for (std::size_t h = 0; h < domain.homes.size(); ++h)
+  {
+    const Home& home = domain.homes[h];
+    if (std::abs(home.block.x) > farthest_block || std::abs(home.block.y) > farthest_block ||
+        (domain.grid.wrapped && home.block.x != 0))
+      return "homes name a block far off";
+    if (h > 0 && !(domain.homes[h - 1].block < home.block))
+      return "homes are not in the order of their blocks";
+    for (const Range& range : home.ranges)
+    {
+      if (range.material < 0 || range.material >= static_cast<int>(domain.materials.size()) ||
+          range.begin < domain.material_begin[range.material] ||
+          range.end > domain.material_begin[range.material + 1] || range.begin >= range.end)
+        return "homes name particles that their material has not";
+      for (int k = range.begin; k < range.end; ++k)
+      {
+        if (held[k]) return "homes hold " + particle(p.id[k]) + "twice";
+        held[k] = true;
+        if (!within_tile(domain.grid, home.block, p.x[k], p.y[k]))
+          return particle(p.id[k]) + "does not stand in its block";
+      }
+    }
+  }
+  for (int k = 0; k < p.size(); ++k)
+    if (!held[k]) return "homes do not hold " + particle(p.id[k]);
+  if (!(domain.drift >= 0 && domain.drift <= greatest_drift))
+    return "drift is " + std::to_string(domain.drift);
+  return {};
+}
+} // namespace
+
+bool within_tile(const Grid& grid, BlockIndex block, double x, double y)
+{
+  const auto inside = [&](double at, double origin, int first)
+  {
+    const double cells = (at - origin) / grid.spacing - block_cells * double(first);
+    return cells >= -greatest_drift && cells <= block_cells + greatest_drift;
+  };
+  return inside(x, grid.origin_x, block.x) && inside(y, grid.origin_y, block.y);
+}
+
+std::string state_problem(Domain& domain, const std::vector<double>& masses)
+{
+  if (std::string problem = place_particles(domain); !problem.empty()) return problem;
+  if (std::string problem = fields_problem(domain, masses); !problem.empty()) return problem;
+  if (std::string problem = homes_problem(domain); !problem.empty()) return problem;
+  for (const auto& boundary : domain.boundaries)
+    if (std::string problem = boundary->state_problem(domain); !problem.empty())
+      return "boundary/" + std::string(boundary->name()) + ": " + problem;
+  return {};
+}
+} // namespace mpm
