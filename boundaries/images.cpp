@@ -72,6 +72,11 @@ Images make_images(const Domain& domain, std::span<const Wall> walls)
   return result;
 }
 
+void Images::release(const Domain& domain)
+{
+  std::erase_if(list, [&](const Image& image) { return domain.place[image.parent] < 0; });
+}
+
 void Images::sort(const Domain& domain)
 {
   const Grid& g = domain.grid;

@@ -99,6 +99,28 @@ void load_homes(const h5::Group& group, Domain& domain)
   domain.drift = group.attribute_double("drift");
 }
 
+/// History variables, and which particles are of which material: all that the case makes, less those that
+/// have left.
+void load_materials(const h5::Group& group, Domain& domain)
+{
+  std::vector<int> begin = domain.material_begin;
+  for (const Departed& one : domain.departed)
+    for (std::size_t m = one.material + 1; m < begin.size(); ++m) --begin[m];
+  for (std::size_t m = 0; m < domain.materials.size(); ++m)
+  {
+    Material& material = domain.materials[m];
+    const h5::Group own = group.open_group("materials/" + material.name);
+    if (own.attribute_string("model") != material.model() || own.attribute_int("begin") != begin[m] ||
+        own.attribute_int("end") != begin[m + 1])
+      throw Error(exit_code::bad_input, own.where() +
+                                            ": is another material than the case's; use the case that the "
+                                            "checkpoint was made with");
+    for (std::size_t k = 0; k < material.state.size(); ++k)
+      material.state[k] = own.read_doubles(std::string(material.state_fields()[k].name));
+  }
+  domain.material_begin = std::move(begin);
+}
+
 void visit_tracers(StateVisitor& visitor, std::vector<Tracer>& tracers)
 {
   RecordVisitor<Tracer> list(visitor, "", tracers);
@@ -124,6 +146,8 @@ void save_domain(h5::Group& group, Domain& domain)
   }
   Saver saver(group.create_group("tracers"));
   visit_tracers(saver, domain.tracers);
+  Saver departed(group.create_group("departed"));
+  visit_departed(departed, domain.departed);
   Saver ledger(group.create_group("energy"));
   visit_ledger(ledger, domain.ledger);
   Saver rest(group.create_group("rest"));
@@ -134,13 +158,15 @@ void load_particles(const h5::Group& group, Domain& domain)
 {
   Particles& p = domain.particles;
   const h5::Group particles = group.open_group("particles");
-  const std::size_t count = p.size();
-  p.id = particles.read_ints("id");
-  if (p.id.size() != count)
+  const std::size_t count = p.size() - domain.departed.size();
+  std::vector<std::int64_t> ids = particles.read_ints("id");
+  if (ids.size() != count)
     throw Error(
         exit_code::bad_input,
         fmt::format("{}: holds {} particles where the case makes {}; use the case that it was made with",
-                    particles.where("id"), p.id.size(), count));
+                    particles.where("id"), ids.size(), count));
+  p.resize(static_cast<int>(count));
+  p.id = std::move(ids);
   for (const ParticleField& field : particle_fields)
   {
     const std::vector<double> values = particles.read_doubles(std::string(field.name));
@@ -149,19 +175,7 @@ void load_particles(const h5::Group& group, Domain& domain)
     for (int c = 0; c < field.components; ++c)
       for (std::size_t k = 0; k < count; ++k) (p.*field.data[c])[k] = values[k * field.components + c];
   }
-  for (std::size_t m = 0; m < domain.materials.size(); ++m)
-  {
-    Material& material = domain.materials[m];
-    const h5::Group own = group.open_group("materials/" + material.name);
-    if (own.attribute_string("model") != material.model() ||
-        own.attribute_int("begin") != domain.material_begin[m] ||
-        own.attribute_int("end") != domain.material_begin[m + 1])
-      throw Error(exit_code::bad_input, own.where() +
-                                            ": is another material than the case's; use the case that the "
-                                            "checkpoint was made with");
-    for (std::size_t k = 0; k < material.state.size(); ++k)
-      material.state[k] = own.read_doubles(std::string(material.state_fields()[k].name));
-  }
+  load_materials(group, domain);
   load_homes(group.open_group("grid"), domain);
   rebuild(domain);
 }
@@ -176,6 +190,8 @@ void load_domain(const h5::Group& group, Domain& domain)
   }
   Loader loader(group.open_group("tracers"));
   visit_tracers(loader, domain.tracers);
+  Loader departed(group.open_group("departed"));
+  visit_departed(departed, domain.departed);
   Loader ledger(group.open_group("energy"));
   visit_ledger(ledger, domain.ledger);
   load_particles(group, domain);
