@@ -46,6 +46,12 @@ std::vector<std::array<double, 2>> BaseSpring::follow(const std::vector<std::arr
   return far_end;
 }
 
+void BaseSpring::drop(std::size_t face)
+{
+  for (auto* list : {&stretch_, &reaction_})
+    if (face < list->size()) list->erase(list->begin() + static_cast<std::ptrdiff_t>(face));
+}
+
 void BaseSpring::visit_state(StateVisitor& visitor)
 {
   visit_vectors(visitor, "spring_stretch_", stretch_);

@@ -48,6 +48,8 @@ public:
   /// Takes in the distance of each face from the free field over a step of dt s. Returns the spring's force
   /// on each face as the velocity of the far end of the face's dashpot, m/s.
   std::vector<std::array<double, 2>> follow(const std::vector<std::array<double, 2>>& distance, double dt);
+  /// Forgets a face.
+  void drop(std::size_t face);
   void visit_state(StateVisitor& visitor);
   /// Whether what was loaded is of so many faces, or of a spring that has not acted yet.
   bool fits(std::size_t faces) const

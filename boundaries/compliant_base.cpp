@@ -5,6 +5,14 @@
 
 namespace mpm
 {
+void CompliantBase::release(const Domain& domain)
+{
+  const auto gone = [&](const Face& face) { return has_left(domain, face); };
+  for (std::size_t k = faces_.size(); k-- > 0;)
+    if (gone(faces_[k])) spring_.drop(k);
+  std::erase_if(faces_, gone);
+}
+
 void CompliantBase::add_forces(Domain& domain, double dt)
 {
   nodes_.find(domain, faces_, stretch_spring(domain, dt));

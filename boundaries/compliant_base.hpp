@@ -21,6 +21,7 @@ public:
   }
   std::string_view name() const override { return "base"; }
   bool absorbs() const override { return true; }
+  void release(const Domain& domain) override;
   void add_forces(Domain& domain, double dt) override;
   void apply_dashpots(Domain& domain, double dt) override;
   void measure_work(const Domain& domain, double dt, Energies& now) const override;
@@ -31,6 +32,8 @@ public:
   /// Where the free field's base stands at the start of the step to come; without columns the free field goes
   /// where the input takes it.
   void follow(std::vector<FreeFieldBase> free_field) { free_field_ = std::move(free_field); }
+  /// From the left to the right.
+  const std::vector<Face>& faces() const { return faces_; }
   /// How far the base stands from a free field now.
   BaseDrift drift(const Domain& domain, const std::vector<FreeFieldBase>& free_field) const;
 

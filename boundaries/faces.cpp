@@ -109,7 +109,7 @@ std::string faces_problem(const std::vector<Face>& faces, const Domain& domain)
       100 * domain.grid.spacing; // faces stand beside their particles, ghosts' within a few cells
   for (const Face& face : faces)
   {
-    if (face.particle < 0 || face.particle >= domain.particles.size())
+    if (face.particle < 0 || face.particle >= std::ssize(domain.place) || domain.place[face.particle] < 0)
       return "a face belongs to particle " + std::to_string(face.particle) + ", which is not there";
     if (!(std::fabs(face.offset_x) < far && std::fabs(face.offset_y) < far)) return "a face stands far off";
     if (!(face.dashpot_x >= 0 && face.dashpot_y >= 0)) return "a dashpot is negative";

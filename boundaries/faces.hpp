@@ -16,14 +16,6 @@ struct Face
   double dashpot_x, dashpot_y; ///< impedance times area, N s/m per m
 };
 
-/// Which outer face of a model.
-enum class Edge
-{
-  bottom,
-  left,
-  right,
-};
-
 /// Faces of the outer row of particles at `edge`, whose line is at `position` (m); `size` is the particle
 /// distance h/n. Impedances rho c are those of each particle's own material (eqs. 4, 5).
 std::vector<Face> find_faces(const Domain& domain, Edge edge, double position, double size);
@@ -72,6 +64,11 @@ private:
 
 /// What of loaded faces cannot be, in words; empty: nothing.
 std::string faces_problem(const std::vector<Face>& faces, const Domain& domain);
+/// Whether the particle of a face has left.
+inline bool has_left(const Domain& domain, const Face& face)
+{
+  return domain.place[face.particle] < 0;
+}
 
 /// Saves or loads faces, under names that begin with `prefix`.
 void visit_faces(StateVisitor& visitor, std::string prefix, std::vector<Face>& faces);

@@ -104,6 +104,14 @@ void FreeFieldSide::begin(const Domain& domain, double position, double bottom, 
   }
 }
 
+void FreeFieldSide::release(const Domain& domain)
+{
+  const auto gone = [&](const Face& face) { return has_left(domain, face); };
+  std::erase_if(faces_, gone);
+  std::erase_if(ghost_base_, gone);
+  ghosts_.release(domain);
+}
+
 std::array<double, 2> FreeFieldSide::column_velocity(int row) const
 {
   if (!column_) return {};

@@ -58,10 +58,14 @@ public:
   bool absorbs() const override { return true; }
   void sort(const Domain& domain) override { ghosts_.sort(domain); }
   void bind(const Domain& domain) override { ghosts_.bind(domain); }
+  void release(const Domain& domain) override;
   void add_forces(Domain& domain, double dt) override;
   void measure_work(const Domain& domain, double dt, Energies& now) const override;
   void visit_state(StateVisitor& visitor) override;
   std::string state_problem(const Domain& domain) const override;
+  Edge edge() const { return edge_; }
+  /// The faces, from the bottom up.
+  const std::vector<Face>& faces() const { return faces_; }
   /// Greatest distance by which a face and its column have moved apart, m.
   double separation(const Domain& domain) const;
 

@@ -73,6 +73,11 @@ Images make_images(const Domain& domain, std::span<const Wall> walls)
   return result;
 }
 
+void Images::release(const Domain& domain)
+{
+  std::erase_if(list, [&](const Image& image) { return domain.place[image.parent] < 0; });
+}
+
 void Images::sort(const Domain& domain)
 {
   const Grid& g = domain.grid;
@@ -336,7 +341,7 @@ std::string Images::problem(const Domain& domain, std::size_t loads_there) const
   const Particles& p = domain.particles;
   for (const Image& image : list)
   {
-    if (image.parent < 0 || image.parent >= p.size())
+    if (image.parent < 0 || image.parent >= std::ssize(domain.place) || domain.place[image.parent] < 0)
       return "an image has the parent " + std::to_string(image.parent) + ", which is not there";
     if (image.load < 0 || std::size_t(image.load) >= loads_there)
       return "an image brings load " + std::to_string(image.load) + ", which is not there";

@@ -44,6 +44,8 @@ public:
   std::vector<Image> list; ///< any order; bind() sorts it by block, then as the parents stand
   std::vector<ImageLoad> loads;
 
+  /// Forgets images whose parents have left.
+  void release(const Domain& domain);
   /// The particles were sorted: finds the block in which each image stands now.
   void sort(const Domain& domain);
   /// Finds the parents again, and groups the images by their blocks.
@@ -100,6 +102,7 @@ public:
   std::string_view name() const override { return "images"; }
   void sort(const Domain& domain) override { images_.sort(domain); }
   void bind(const Domain& domain) override;
+  void release(const Domain& domain) override { images_.release(domain); }
   void add_forces(Domain& domain, double dt) override;
   void measure_work(const Domain& domain, double dt, Energies& now) const override;
   void visit_state(StateVisitor& visitor) override;

@@ -135,6 +135,13 @@ enum class Inertia
   consistent ///< see correct_inertia
 };
 
+/// `seismic.leaving`: what becomes of ground that passes a side or the base.
+enum class GroundLeaving
+{
+  remove, ///< it is taken out, and the run goes on
+  stop    ///< the run ends
+};
+
 /// `seismic`. The kinds of base and sides rule the free-field columns of the static stage too.
 struct SeismicSettings
 {
@@ -146,6 +153,7 @@ struct SeismicSettings
   double flip_blend = 0; ///< share of FLIP in the velocity update
   FlipEnds flip_ends = FlipEnds::on_slide;
   Inertia inertia = Inertia::lumped;
+  GroundLeaving leaving = GroundLeaving::remove;
   double rest_below = 0; ///< speed of ground that may be skipped after the motion, m/s; 0: none is, see Rest
   MotionSettings motion;
 };

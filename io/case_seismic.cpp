@@ -173,6 +173,7 @@ SeismicSettings read_seismic(Section& root, const std::filesystem::path& folder,
       section.number_or(0, "flip_blend", Dimension::none, {.lower = 0, .upper = 1, .upper_allowed = false});
   settings.flip_ends = static_cast<FlipEnds>(section.choice_or(0, "flip_ends", {"on_slide", "never"}));
   settings.inertia = static_cast<Inertia>(section.choice_or(0, "inertia", {"lumped", "consistent"}));
+  settings.leaving = static_cast<GroundLeaving>(section.choice_or(0, "leaving", {"remove", "stop"}));
   settings.rest_below = section.number_or(0, "rest_below", Dimension::velocity, Range::not_negative());
   settings.motion = read_motion(section.optional_section("motion"), folder, problems);
   return settings;

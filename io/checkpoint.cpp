@@ -36,12 +36,15 @@ private:
 class Loader final : public StateVisitor
 {
 public:
-  explicit Loader(h5::Group group) : group_(std::move(group)) {}
+  explicit Loader(h5::Group group, bool may_be_none = false)
+      : group_(std::move(group)), may_be_none_(may_be_none)
+  {
+  }
   void doubles(std::string_view name, std::string_view, std::vector<double>& values) override
   {
     values = group_.read_doubles(std::string(name));
     for (const double value : values)
-      if (std::isnan(value)) refuse(group_, std::string(name), "is not a number somewhere");
+      if (std::isnan(value) && !may_be_none_) refuse(group_, std::string(name), "is not a number somewhere");
   }
   void integers(std::string_view name, std::vector<std::int64_t>& values) override
   {
@@ -50,6 +53,7 @@ public:
 
 private:
   h5::Group group_;
+  bool may_be_none_; ///< whether NaN stands for no value
 };
 
 void save_particles(h5::Group group, const Particles& p)
@@ -117,6 +121,28 @@ void load_homes(const h5::Group& group, Domain& domain)
   domain.drift = group.attribute_double("drift");
 }
 
+/// History variables, and which particles are of which material: all that the case makes, less those that
+/// have left.
+void load_materials(const h5::Group& group, Domain& domain)
+{
+  std::vector<int> begin = domain.material_begin;
+  for (const Departed& one : domain.departed)
+    for (std::size_t m = one.material + 1; m < begin.size(); ++m) --begin[m];
+  for (std::size_t m = 0; m < domain.materials.size(); ++m)
+  {
+    Material& material = domain.materials[m];
+    const h5::Group own = group.open_group("materials/" + material.name);
+    if (own.attribute_string("model") != material.model() || own.attribute_int("begin") != begin[m] ||
+        own.attribute_int("end") != begin[m + 1])
+      throw Error(exit_code::bad_input, own.where() +
+                                            ": is another material than the case's; use the case that the "
+                                            "checkpoint was made with");
+    for (std::size_t k = 0; k < material.state.size(); ++k)
+      material.state[k] = own.read_doubles(std::string(material.state_fields()[k].name));
+  }
+  domain.material_begin = std::move(begin);
+}
+
 void visit_tracers(StateVisitor& visitor, std::vector<Tracer>& tracers)
 {
   RecordVisitor<Tracer> list(visitor, "", tracers);
@@ -142,6 +168,8 @@ void save_domain(h5::Group& group, Domain& domain)
   }
   Saver saver(group.create_group("tracers"));
   visit_tracers(saver, domain.tracers);
+  Saver departed(group.create_group("departed"));
+  visit_departed(departed, domain.departed);
   Saver ledger(group.create_group("energy"));
   visit_ledger(ledger, domain.ledger);
   Saver rest(group.create_group("rest"));
@@ -150,15 +178,20 @@ void save_domain(h5::Group& group, Domain& domain)
 
 namespace
 {
-void read_particles(const h5::Group& particles, Particles& p)
+/// All that the case makes, less those that have left.
+void read_particles(const h5::Group& particles, Domain& domain)
 {
-  const std::size_t count = p.size();
-  p.id = particles.read_ints("id");
-  if (p.id.size() != count)
+  Particles& p = domain.particles;
+  if (domain.departed.size() > std::size_t(p.size())) refuse(particles, "", "more have left than there were");
+  const std::size_t count = p.size() - domain.departed.size();
+  std::vector<std::int64_t> ids = particles.read_ints("id");
+  if (ids.size() != count)
     throw Error(
         exit_code::bad_input,
         fmt::format("{}: holds {} particles where the case makes {}; use the case that it was made with",
-                    particles.where("id"), p.id.size(), count));
+                    particles.where("id"), ids.size(), count));
+  p.resize(static_cast<int>(count));
+  p.id = std::move(ids);
   for (const ParticleField& field : particle_fields)
   {
     const std::vector<double> values = particles.read_doubles(std::string(field.name));
@@ -166,23 +199,6 @@ void read_particles(const h5::Group& particles, Particles& p)
       throw Error(exit_code::bad_input, particles.where(std::string(field.name)) + ": has the wrong size");
     for (int c = 0; c < field.components; ++c)
       for (std::size_t k = 0; k < count; ++k) (p.*field.data[c])[k] = values[k * field.components + c];
-  }
-}
-
-void read_materials(const h5::Group& group, Domain& domain)
-{
-  for (std::size_t m = 0; m < domain.materials.size(); ++m)
-  {
-    Material& material = domain.materials[m];
-    const h5::Group own = group.open_group("materials/" + material.name);
-    if (own.attribute_string("model") != material.model() ||
-        own.attribute_int("begin") != domain.material_begin[m] ||
-        own.attribute_int("end") != domain.material_begin[m + 1])
-      throw Error(exit_code::bad_input, own.where() +
-                                            ": is another material than the case's; use the case that the "
-                                            "checkpoint was made with");
-    for (std::size_t k = 0; k < material.state.size(); ++k)
-      material.state[k] = own.read_doubles(std::string(material.state_fields()[k].name));
   }
 }
 
@@ -194,8 +210,10 @@ void read_boundaries(const h5::Group& group, Domain& domain)
     Loader loader(group.open_group("boundary/" + std::string(boundary->name())));
     boundary->visit_state(loader);
   }
-  Loader tracers(group.open_group("tracers"));
+  Loader tracers(group.open_group("tracers"), true); // of a gauge whose ground has left
   visit_tracers(tracers, domain.tracers);
+  Loader departed(group.open_group("departed"));
+  visit_departed(departed, domain.departed);
   Loader ledger(group.open_group("energy"));
   visit_ledger(ledger, domain.ledger);
 }
@@ -214,8 +232,8 @@ void load(const h5::Group& group, Domain& domain, bool with_boundaries)
   try
   {
     if (with_boundaries) read_boundaries(group, domain);
-    read_particles(group.open_group("particles"), domain.particles);
-    read_materials(group, domain);
+    read_particles(group.open_group("particles"), domain);
+    load_materials(group, domain);
     load_homes(group.open_group("grid"), domain);
     if (with_boundaries)
     {

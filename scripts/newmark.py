@@ -141,9 +141,15 @@ def ground_of(folder):
     size = x[1] - x[0]
     with h5py.File(path, "r") as file:
         position = array(file, "particles/reference")[:, :2]
-        groups = [file[f"materials/{n}"].attrs for n in file["materials"]]
+        groups = sorted((file[f"materials/{n}"].attrs for n in file["materials"]),
+                        key=lambda a: (int(a["begin"]), int(a["end"])))
         names = [a["material"].decode() if isinstance(a["material"], bytes) else a["material"] for a in groups]
-        parts = [slice(int(a["begin"]), int(a["end"])) for a in groups]
+        parts = [np.arange(int(a["begin"]), int(a["end"])) for a in groups]
+        if "departed" in file:  # ground that has left the model by now was there
+            gone = file["departed"]
+            owner = gone["material"][...]
+            parts = [np.append(part, len(position) + np.flatnonzero(owner == k)) for k, part in enumerate(parts)]
+            position = np.concatenate([position, np.stack([gone["reference_x"], gone["reference_y"]], axis=1)])
     bottom = position[:, 1].min() - 0.5 * size
     middles = bottom + size * (np.arange(int(np.ceil((np.nanmax(surface) - bottom) / size))) + 0.5)
     nearest = cKDTree(position).query(np.stack(np.meshgrid(x, middles, indexing="ij"), axis=-1))[1]

@@ -5,7 +5,8 @@ import numpy as np
 
 from plot_common import WIDTH, Missing, array, group_of, open_history, save, text
 
-BECOME = ("kinetic", "elastic", "plastic", "radiated_base", "radiated_sides", "damping", "transfer")
+BECOME = ("kinetic", "elastic", "plastic", "radiated_base", "radiated_sides", "departed", "damping",
+          "transfer")
 
 
 def read_ledger(file):

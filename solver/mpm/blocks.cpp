@@ -62,12 +62,6 @@ void sort_material(Domain& domain, int material, std::vector<std::pair<BlockInde
   }
 }
 
-void find_places(Domain& domain)
-{
-  domain.place.resize(domain.particles.size());
-  for (int k = 0; k < domain.particles.size(); ++k) domain.place[domain.particles.id[k]] = k;
-}
-
 std::vector<BlockIndex> with_surroundings(const Domain& domain)
 {
   std::vector<BlockIndex> wanted;
@@ -93,6 +87,13 @@ void set_materials(Domain& domain, std::vector<Material> materials, const std::v
   }
   domain.particles.resize(domain.material_begin.back());
   std::iota(domain.particles.id.begin(), domain.particles.id.end(), 0);
+}
+
+void find_places(Domain& domain)
+{
+  const std::size_t planted = domain.particles.size() + domain.departed.size();
+  domain.place.assign(planted, -1);
+  for (int k = 0; k < domain.particles.size(); ++k) domain.place[domain.particles.id[k]] = k;
 }
 
 void rebuild(Domain& domain)

@@ -6,6 +6,14 @@ namespace mpm
 {
 struct Domain;
 
+/// Which outer face of a model.
+enum class Edge
+{
+  bottom,
+  left,
+  right,
+};
+
 /// What a boundary does to a step. The loops are inside; each is called once a step at most.
 struct Boundary
 {
@@ -19,6 +27,8 @@ struct Boundary
   /// Finds its particles and nodes again after a sort or a restart; must not go by positions,
   /// since a restart finds them further on than the sort did.
   virtual void bind(const Domain&) {}
+  /// Particles have left the domain (their Domain::place is -1): forgets what belongs to them.
+  virtual void release(const Domain&) {}
   /// Adds forces and dashpots to the grid, after the particles' own scatter. The step runs from domain.time
   /// to domain.time + dt.
   virtual void add_forces(Domain&, double /*dt*/) {}

@@ -2,6 +2,7 @@
 
 #include "materials/material.hpp"
 #include "solver/mpm/boundary.hpp"
+#include "solver/mpm/departures.hpp"
 #include "solver/mpm/grid.hpp"
 #include "solver/mpm/parallel.hpp"
 #include "solver/mpm/particles.hpp"
@@ -42,7 +43,7 @@ struct Home
 /// A massless material point that moves with the interpolated grid velocity: a gauge.
 struct Tracer
 {
-  double x, y;                     ///< position, m
+  double x, y;                     ///< position, m; not a number once its ground has left the domain
   double reference_x, reference_y; ///< where it began, m
   double velocity_x = 0, velocity_y = 0;
 };
@@ -71,6 +72,7 @@ struct Domain
   std::vector<int> material_begin; ///< particles of material k: [material_begin[k], material_begin[k + 1])
   std::vector<std::unique_ptr<Boundary>> boundaries;
   std::vector<Tracer> tracers;
+  std::vector<Departed> departed; ///< particles that have left, in the order in which they did
 
   double gravity_x = 0, gravity_y = 0; ///< body acceleration of now, m/s2
   double damping = 0;                  ///< local damping beta, eq. (1)
@@ -95,7 +97,7 @@ struct Domain
                        [this](int block)
                        { return block >= 0 && home_in[block] >= 0 && !homes[home_in[block]].asleep; });
   }
-  std::vector<int> place; ///< where a particle id stands now
+  std::vector<int> place; ///< where a particle id stands now; -1: it has left
   double drift = 0;       ///< cells that a particle may have moved since the last sort
   Balance balance;
   Ledger ledger;
@@ -106,6 +108,9 @@ struct Domain
 /// Sorts the particles, with their materials' state, by block and cell; rebuilds blocks and grid and binds
 /// the boundaries.
 void sort_particles(Domain& domain);
+
+/// Finds Domain::place again.
+void find_places(Domain& domain);
 
 /// Rebuilds blocks, grid and bindings from the homes in place, without touching the order (after a restart).
 void rebuild(Domain& domain);

@@ -261,7 +261,8 @@ void move_tracers(Domain& domain, double dt)
   double lightest = std::numeric_limits<double>::infinity();
   for (const Material& material : domain.materials) lightest = std::min(lightest, material.elastic().density);
   NodeFinder find(domain.grid);
-  for (Tracer& tracer : domain.tracers) move(tracer, domain, lightest, find, dt);
+  for (Tracer& tracer : domain.tracers)
+    if (!std::isnan(tracer.x)) move(tracer, domain, lightest, find, dt);
 }
 } // namespace
 

@@ -96,6 +96,23 @@ void note_gravity(Domain& domain)
   l.gravity_y = domain.gravity_y;
 }
 
+void book_departure(Domain& domain, const std::function<void()>& remove)
+{
+  note_gravity(domain);
+  const Energies before = energy_balance(domain);
+  remove();
+  Ledger& l = domain.ledger;
+  const Content now = content_of(domain);
+  l.moment_x = now.moment_x;
+  l.moment_y = now.moment_y;
+  const Energies after = energy_balance(domain);
+  const auto lost = [&](Energy term) { return before[term] - after[term]; };
+  l.plastic -= lost(Energy::plastic);
+  l.work -= lost(Energy::kinetic);
+  // Of the gravitational energy it is the half step that `energy_balance` takes back.
+  l.flow[Energy::departed] += lost(Energy::kinetic) + lost(Energy::elastic) + lost(Energy::gravitational);
+}
+
 Energies energy_balance(const Domain& domain)
 {
   const Ledger& l = domain.ledger;
@@ -125,8 +142,8 @@ double largest_term(const Energies& balance)
 
 double unexplained_growth(const Energies& e)
 {
-  return e[Energy::kinetic] + e[Energy::elastic] + e[Energy::gravitational] - e[Energy::incoming] -
-         e[Energy::reaction] - e[Energy::free_field];
+  return e[Energy::kinetic] + e[Energy::elastic] + e[Energy::gravitational] + e[Energy::departed] -
+         e[Energy::incoming] - e[Energy::reaction] - e[Energy::free_field];
 }
 
 void visit_ledger(StateVisitor& visitor, Ledger& ledger)

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace mpm
 {
@@ -22,6 +23,7 @@ enum class Energy
   transfer,
   radiated_base,
   radiated_sides,
+  departed,
   incoming,
   reaction,
   free_field,
@@ -35,7 +37,7 @@ struct EnergyTerm
 };
 
 /// In the order of `Energy`.
-inline constexpr std::array<EnergyTerm, 11> energy_terms{{
+inline constexpr std::array<EnergyTerm, 12> energy_terms{{
     {"kinetic", 1, "kinetic energy of the particles, with the affine part"},
     {"elastic", 1, "V/2 sigma : C^-1 : sigma"},
     {"gravitational", 1, "minus the work of gravity"},
@@ -44,6 +46,7 @@ inline constexpr std::array<EnergyTerm, 11> energy_terms{{
     {"transfer", 1, "numerical dissipation of the transfers between particles and grid"},
     {"radiated_base", 1, "downgoing waves: impedance (v - v_up)^2 at the base"},
     {"radiated_sides", 1, "scattered waves: impedance (v - v_column)^2 at the sides"},
+    {"departed", 1, "kinetic and elastic energy of ground when it left the model"},
     {"incoming", -1, "upgoing wave: impedance v_up^2 at the base"},
     {"static_reaction", -1, "work of the static reaction of walls that have gone, and of the base's spring"},
     {"free_field", -1, "work of the free-field columns' stress and motion at the sides"},
@@ -70,9 +73,9 @@ struct StepWork
 /// Accumulated flows and opening state. Plain data; `account` keeps it, `energy_balance` reads it.
 struct Ledger
 {
-  StepWork step;                                ///< the last one
-  Energies flow;                                ///< of damping and boundaries, since the opening
-  double work = 0;                              ///< of all forces on the grid, since the opening
+  StepWork step;   ///< the last one
+  Energies flow;   ///< of damping and boundaries, since the opening
+  double work = 0; ///< of all forces on the grid, since the opening, less what left as kinetic energy
   double kinetic = 0, elastic = 0, plastic = 0; ///< at the opening
   double gravity_work = 0;                      ///< until gravity was last noted
   double moment_x = 0, moment_y = 0;            ///< sum m x (kg m per m) and gravity (m/s2) of then
@@ -89,6 +92,10 @@ void account(Domain& domain, double dt);
 /// movement, so while it grows it is to be noted often; while it is constant never again.
 void note_gravity(Domain& domain);
 
+/// Books ground that leaves, which `remove` takes out of the domain: what it held of kinetic and elastic
+/// energy has left; what it dissipated and what gravity did to it stay where they are.
+void book_departure(Domain& domain, const std::function<void()>& remove);
+
 /// The ledger as it stands. Symplectic Euler keeps K(v) + U(x) - dt/2 v . grad U (Hairer, Lubich & Wanner,
 /// Geometric Numerical Integration, 2006, IX.3): stresses and positions are half a step ahead of velocities.
 /// So elastic and gravitational energy are taken back by half a step with the particles' own velocity and its
@@ -103,7 +110,8 @@ double residual(const Energies& balance);
 /// Greatest term, the measure of the residual.
 double largest_term(const Energies& balance);
 
-/// Kinetic, elastic and gravitational energy that no source brought; below zero by what was dissipated.
+/// Kinetic, elastic and gravitational energy, with what left, that no source brought; below zero by what was
+/// dissipated.
 double unexplained_growth(const Energies& balance);
 
 /// Saves or loads the ledger.

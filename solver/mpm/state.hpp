@@ -44,7 +44,7 @@ public:
   void each_integer(std::string_view name, const Access& access)
   {
     std::vector<std::int64_t> column;
-    for (T& item : list_) column.push_back(access(item));
+    for (T& item : list_) column.push_back(static_cast<std::int64_t>(access(item)));
     visitor_.integers(prefix_ + std::string(name), column);
     resize(name, column.size());
     for (std::size_t k = 0; k < column.size(); ++k)

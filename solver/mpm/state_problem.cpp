@@ -23,17 +23,36 @@ bool finite(const std::vector<double>& values)
   return sum == 0;
 }
 
-std::string place_particles(Domain& domain)
+/// `total`: as many as the case makes; those that have left have no place.
+std::string place_particles(Domain& domain, std::size_t total)
 {
   const Particles& p = domain.particles;
-  domain.place.assign(p.id.size(), -1);
+  domain.place.assign(total, -1);
   for (std::size_t k = 0; k < p.id.size(); ++k)
   {
     const std::int64_t id = p.id[k];
-    if (id < 0 || id >= std::int64_t(p.id.size()))
-      return "there is no particle with the id " + std::to_string(id);
+    if (id < 0 || id >= std::int64_t(total)) return "there is no particle with the id " + std::to_string(id);
     if (domain.place[id] >= 0) return particle(id) + "is there twice";
     domain.place[id] = static_cast<int>(k);
+  }
+  return {};
+}
+
+/// Particles have left once, and are not there any more.
+std::string departed_problem(const Domain& domain)
+{
+  if (domain.departed.size() + domain.particles.id.size() != domain.place.size())
+    return "those that are there and those that have left are not all particles";
+  std::vector<bool> left(domain.place.size(), false);
+  for (const Departed& one : domain.departed)
+  {
+    if (one.particle < 0 || std::size_t(one.particle) >= left.size() || domain.place[one.particle] >= 0 ||
+        left[one.particle])
+      return particle(one.particle) + "cannot have left";
+    left[one.particle] = true;
+    if (one.material < 0 || std::size_t(one.material) >= domain.materials.size())
+      return "a particle that has left is of no material";
+    if (one.edge < Edge::bottom || one.edge > Edge::right) return "a particle has left by no edge";
   }
   return {};
 }
@@ -119,7 +138,8 @@ bool within_tile(const Grid& grid, BlockIndex block, double x, double y)
 
 std::string state_problem(Domain& domain, const std::vector<double>& masses)
 {
-  if (std::string problem = place_particles(domain); !problem.empty()) return problem;
+  if (std::string problem = place_particles(domain, masses.size()); !problem.empty()) return problem;
+  if (std::string problem = departed_problem(domain); !problem.empty()) return problem;
   if (std::string problem = fields_problem(domain, masses); !problem.empty()) return problem;
   if (std::string problem = homes_problem(domain); !problem.empty()) return problem;
   for (const auto& boundary : domain.boundaries)

@@ -56,8 +56,9 @@ void Observer::load(const h5::File& file, const Clock& clock, double first_step)
   if (model_.main->tracers.size() != gauges || last_velocity_.size() != 2 * gauges ||
       last_time_ != history_.times(fast_).back())
     refuse(group, "gauge_velocity", "is that of other gauges");
-  for (const double velocity : last_velocity_)
-    if (!std::isfinite(velocity)) refuse(group, "gauge_velocity", "is not finite");
+  for (std::size_t k = 0; k < last_velocity_.size(); ++k)
+    if (!std::isfinite(last_velocity_[k]) && !std::isnan(model_.main->tracers[k / 2].x))
+      refuse(group, "gauge_velocity", "is not finite");
   slide_.load(group.open_group("slide"), clock.time());
   const std::vector<double> times = group.read_doubles("frame_times");
   check_times(group, "frame_times", times, output.frames.every + first_step, clock.time());

@@ -8,6 +8,7 @@
 #include "io/units.hpp"
 #include "solver/mpm/parallel.hpp"
 #include "solver/stages/boundary_reports.hpp"
+#include "solver/stages/departures.hpp"
 #include "solver/stages/energy_watch.hpp"
 #include "solver/stages/fidelity.hpp"
 #include "solver/stages/flip_blend.hpp"
@@ -66,7 +67,7 @@ public:
   /// `from`: digest of the static state, empty for none.
   Shaking(Session& session, Model& model, const Motion& motion, std::string from)
       : session_(session), model_(model), motion_(motion), from_(std::move(from)),
-        observer_(session, model, *motion.wave), energy_(session, model),
+        observer_(session, model, *motion.wave), energy_(session, model), departures_(session, model),
         flip_(session.scene.seismic.flip_blend, session.scene.seismic.flip_ends)
   {
   }
@@ -132,6 +133,7 @@ private:
                              { domain.flip_blend = flip_.at(clock.time()); });
       advance(model_, clock.time(), clock.dt);
       ++clock.step;
+      const bool ended = take_out_departed(clock);
       observer_.look(clock, false);
       flip_.note(observer_.slide().now().area > 0, clock.time());
       end_motion();
@@ -144,6 +146,7 @@ private:
         let_rest(clock.time());
       }
       if (progress.due()) progress.update(moment());
+      if (ended) break;
       if (session_.must_stop() || session_.checkpoint_due())
       {
         save(checkpoint_name(clock.step), clock);
@@ -155,6 +158,7 @@ private:
     }
     progress.finish(moment());
     report_boundaries(session_, model_);
+    departures_.report();
     if (!session_.at_end()) observer_.look_last(clock);
     report_end(clock);
     session_.log.info("{}", slide_text(observer_.slide().summary()));
@@ -166,6 +170,19 @@ private:
     energy_.report();
     session_.finish("seismic", exit_code::done, model_, clock, summary(clock), observer_.files());
     return exit_code::done;
+  }
+
+  /// Takes out ground that has left the model; whether that ends the run.
+  bool take_out_departed(const Clock& clock)
+  {
+    if (clock.step % Departures::every != 0 || !departures_.take_out(clock.time())) return false;
+    const bool nothing_left = model_.main->particles.size() == 0;
+    if (session_.scene.seismic.leaving == GroundLeaving::remove && !nothing_left) return false;
+    session_.log.warn("the run ends at t = {:.2f} s of {} s: {}", clock.time(),
+                      session_.scene.seismic.duration,
+                      nothing_left ? "all ground has left the model"
+                                   : "ground has left the model, and seismic.leaving is stop");
+    return true;
   }
 
   /// Once the motion is over and the free field stands still, ground at rest may be skipped.
@@ -261,6 +278,7 @@ private:
   std::string from_;
   Observer observer_;
   EnergyWatch energy_;
+  Departures departures_;
   SelfDriven self_driven_;
   FlipBlend flip_;
 };

@@ -1,5 +1,7 @@
 #include "solver/stages/slide.hpp"
 
+#include "solver/stages/departures.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -100,6 +102,8 @@ void Slide::add_series(History& history, History::Clock clock)
   series_.velocity_99 = history.add_series("slide/peak_velocity", "m/s", {}, clock);
   series_.velocity_point = history.add_series("slide/point_velocity", "m/s", {}, clock);
   series_.point = history.add_series("slide/point", "m", {component}, clock);
+  series_.left_area = history.add_series("slide/left_area", "m2", {}, clock);
+  series_.left_mass = history.add_series("slide/left_mass", "kg/m", {}, clock);
 }
 
 void Slide::sample(History& history, double time)
@@ -119,6 +123,9 @@ void Slide::sample(History& history, double time)
   history.record(series_.velocity_99, now_.velocity_99);
   history.record(series_.velocity_point, now_.velocity_point);
   history.record(series_.point, now_.point);
+  const Departure left = departure(model_);
+  history.record(series_.left_area, left.area);
+  history.record(series_.left_mass, left.mass);
 }
 
 MovedGround Slide::measure() const
@@ -160,7 +167,7 @@ void Slide::note_departures(double time)
 {
   const Domain& main = *model_.main;
   const Movement base = base_motion(model_);
-  departure_.resize(main.particles.size(), NAN);
+  departure_.resize(model_.reference_volume.size(), NAN);
   for (int k = 0; k < main.particles.size(); ++k)
   {
     const Movement m = relative(motion_of(main, k), base);
@@ -186,6 +193,12 @@ double Slide::trigger_time() const
     if (relative(motion_of(main, k), base).distance() < moved || std::isnan(departure_[p.id[k]])) continue;
     left.push_back({departure_[p.id[k]], p.mass[k]});
     mass += p.mass[k];
+  }
+  for (const Departed& one : main.departed) // it has moved, if anything has
+  {
+    if (departure_.empty() || std::isnan(departure_[one.particle])) continue;
+    left.push_back({departure_[one.particle], one.mass});
+    mass += one.mass;
   }
   std::sort(left.begin(), left.end());
   double gone = 0;
@@ -215,6 +228,7 @@ Outline Slide::outline() const
     raise(line.start, p.reference_x[k], p.reference_y[k]);
     raise(line.end, p.x[k], p.y[k]);
   }
+  for (const Departed& one : model_.main->departed) raise(line.start, one.reference_x, one.reference_y);
   close_gaps(line.start);
   close_gaps(line.end);
   return line;
@@ -236,6 +250,8 @@ nlohmann::json Slide::summary() const
   return {{"trigger_time", number(trigger_time())},
           {"moved_area", now_.area},
           {"moved_mass", now_.mass},
+          {"left_area", departure(model_).area},
+          {"left_mass", departure(model_).mass},
           {"greatest_moved_area", peak(area_)},
           {"centre_of_mass_displacement", now_.displacement},
           {"toe", number(now_.toe)},

@@ -86,7 +86,8 @@ private:
   Peak area_, velocity_99_, velocity_point_;
   struct
   {
-    History::Series area, mass, displacement, velocity, toe, toe_advance, velocity_99, velocity_point, point;
+    History::Series area, mass, displacement, velocity, toe, toe_advance, velocity_99, velocity_point, point,
+        left_area, left_mass;
   } series_{};
 };
 } // namespace mpm

@@ -1,0 +1,204 @@
+#include "solver/stages/departures.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mpm
+{
+namespace
+{
+constexpr double margin = 1; // cells beyond an edge at which ground has left
+
+/// A side as it stands now: x over y, from the base upwards; the last point holds above.
+struct SideLine
+{
+  Edge edge;
+  std::vector<double> y, x; ///< m
+
+  int outward() const { return edge == Edge::right ? 1 : -1; }
+  double at(double height) const
+  {
+    const auto next = std::upper_bound(y.begin(), y.end(), height) - y.begin();
+    return x[std::max<std::ptrdiff_t>(0, next - 1)];
+  }
+  /// The point furthest in.
+  double innermost() const
+  {
+    return edge == Edge::right ? *std::min_element(x.begin(), x.end())
+                               : *std::max_element(x.begin(), x.end());
+  }
+  bool passed(double px, double py, double far) const { return outward() * (px - at(py)) > far; }
+};
+
+/// Follows the faces of a side upwards as long as they hang together.
+SideLine line_of(const FreeFieldSide& side, const Domain& domain, double size)
+{
+  const Particles& p = domain.particles;
+  SideLine line{side.edge(), {}, {}};
+  double last = NAN; // displacement of the face below
+  for (const Face& face : side.faces())
+  {
+    const int k = domain.place[face.particle];
+    const double u = p.x[k] - p.reference_x[k];
+    if (std::fabs(u - last) > size) break;
+    last = u;
+    line.x.push_back(p.x[k] + face.offset_x);
+    line.y.push_back(p.y[k] + face.offset_y);
+  }
+  return line;
+}
+
+/// The edges of the model as they stand now.
+struct Edges
+{
+  std::vector<SideLine> sides;
+  double base = -INFINITY; ///< y, m
+
+  Edges(const Model& model, const Case& scene)
+  {
+    const Domain& main = *model.main;
+    const Particles& p = main.particles;
+    std::vector<std::array<double, 2>> moved; // of the base's faces, from the left to the right
+    if (model.base)
+      for (const Face& face : model.base->faces())
+      {
+        const int k = main.place[face.particle];
+        moved.push_back({p.x[k] - p.reference_x[k], p.y[k] - p.reference_y[k]});
+      }
+    if (model.base) base = scene.domain.bottom;
+    double sunk = INFINITY;
+    for (const auto& [x, y] : moved) sunk = std::min(sunk, y);
+    if (!moved.empty()) base += sunk;
+    for (const FreeFieldSide* side : model.sides)
+    {
+      SideLine line = line_of(*side, main, scene.grid.particle_spacing());
+      if (line.x.empty()) // no ground there
+      {
+        const bool left = side->edge() == Edge::left;
+        line.y.push_back(scene.domain.bottom);
+        line.x.push_back((left ? scene.domain.left : scene.domain.right) +
+                         (moved.empty() ? 0 : (left ? moved.front() : moved.back())[0]));
+      }
+      sides.push_back(std::move(line));
+    }
+  }
+
+  /// The edge that a point (m) has passed by more than `far` m.
+  std::optional<Edge> passed(double x, double y, double far) const
+  {
+    for (const SideLine& side : sides)
+      if (side.passed(x, y, far)) return side.edge;
+    if (y < base - far) return Edge::bottom;
+    return {};
+  }
+};
+
+/// Whether particles of a block may have passed an edge: they stand within a cell of it.
+bool may_have_passed(const Edges& edges, const Grid& grid, BlockIndex block)
+{
+  const double h = grid.spacing, size = (block_cells + 1) * h;
+  const double x = grid.origin_x + h * (block_cells * block.x),
+               y = grid.origin_y + h * (block_cells * block.y);
+  for (const SideLine& side : edges.sides)
+    if (side.edge == Edge::right ? x + size > side.innermost() : x - h < side.innermost()) return true;
+  return y - h < edges.base;
+}
+} // namespace
+
+std::string edge_name(Edge edge)
+{
+  return edge == Edge::left ? "left side" : edge == Edge::right ? "right side" : "base";
+}
+
+Departure departure(const Model& model, std::optional<Edge> edge)
+{
+  Departure sum;
+  for (const Departed& one : model.main->departed)
+  {
+    if (edge && one.edge != *edge) continue;
+    if (std::isnan(sum.first)) sum.first = one.time;
+    sum.area += model.reference_volume[one.particle];
+    sum.mass += one.mass;
+  }
+  return sum;
+}
+
+std::vector<Leaving> Departures::find() const
+{
+  const Domain& main = *model_.main;
+  const Edges edges(model_, session_.scene);
+  const double far = margin * main.grid.spacing;
+  std::vector<Leaving> leaving;
+  for (const Home& home : main.homes)
+  {
+    if (!may_have_passed(edges, main.grid, home.block)) continue;
+    for (const Range& range : home.ranges)
+      for (int k = range.begin; k < range.end; ++k)
+        if (const auto edge = edges.passed(main.particles.x[k], main.particles.y[k], far))
+          leaving.push_back({k, *edge});
+  }
+  std::sort(leaving.begin(), leaving.end(),
+            [](const Leaving& a, const Leaving& b) { return a.place < b.place; });
+  return leaving;
+}
+
+bool Departures::take_out(double time)
+{
+  lose_gauges(time);
+  const std::vector<Leaving> leaving = find();
+  if (leaving.empty()) return false;
+  const std::size_t before = model_.main->departed.size();
+  model_.main->time = time;
+  remove_particles(*model_.main, leaving);
+  announce(before);
+  return true;
+}
+
+/// A gauge leaves with its ground.
+void Departures::lose_gauges(double time)
+{
+  Domain& main = *model_.main;
+  if (main.tracers.empty()) return;
+  const Edges edges(model_, session_.scene);
+  for (std::size_t k = 0; k < main.tracers.size(); ++k)
+  {
+    Tracer& t = main.tracers[k];
+    const auto edge = edges.passed(t.x, t.y, margin * main.grid.spacing);
+    if (!edge) continue;
+    t.x = t.y = t.velocity_x = t.velocity_y = NAN;
+    session_.log.warn("gauge {}: its ground passed the {} at t = {:.2f} s; from then on it has no values",
+                      session_.scene.output.gauges.points[k].name, edge_name(*edge), time);
+  }
+}
+
+void Departures::announce(std::size_t before) const
+{
+  const std::vector<Departed>& all = model_.main->departed;
+  for (const Edge edge : {Edge::left, Edge::right, Edge::bottom})
+  {
+    const auto passed = [edge](const Departed& one) { return one.edge == edge; };
+    const auto first = std::find_if(all.begin(), all.end(), passed);
+    if (first == all.end() || first - all.begin() < static_cast<std::ptrdiff_t>(before)) continue;
+    session_.log.warn(
+        "t = {:.2f} s: ground passes the {} and leaves the model, where nothing carries it: it is "
+        "taken out of the computation and of all measures",
+        first->time, edge_name(edge));
+  }
+}
+
+void Departures::report() const
+{
+  for (const Edge edge : {Edge::left, Edge::right, Edge::bottom})
+  {
+    const Departure left = departure(model_, edge);
+    if (left.mass == 0) continue;
+    session_.log.warn("{:.2f} m2 of ground ({:.4g} kg/m) have passed the {}, the first at t = {:.2f} s: "
+                      "run-out, moved area "
+                      "and velocities are those of the ground that is still in the model; {}",
+                      left.area, left.mass, edge_name(edge), left.first,
+                      edge == Edge::bottom
+                          ? "let ground cover the whole base, or take seismic.base.kind fixed"
+                          : "widen the domain there");
+  }
+}
+} // namespace mpm
