@@ -50,7 +50,7 @@ public:
     for (std::size_t k = 0; k < column.size(); ++k)
     {
       access(list_[k]) = static_cast<std::decay_t<decltype(access(list_[k]))>>(column[k]);
-      if (access(list_[k]) != column[k])
+      if (static_cast<std::int64_t>(access(list_[k])) != column[k])
         throw std::runtime_error(prefix_ + std::string(name) + " holds " + std::to_string(column[k]));
     }
   }
