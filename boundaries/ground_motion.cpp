@@ -268,6 +268,7 @@ GroundMotion make_ground_motion(const Record& record, const MotionProcessing& pr
   report.spectrum = spectral_change(as_recorded, a, dt);
   report.warnings = motion_warnings(record, processing, report);
 
+  report.parts = record.quantity == Quantity::acceleration ? 1 : 8;
   report.share = processing.recorded_as == RecordedAs::outcrop ? 0.5 : 1; // v_outcrop = 2 v_up
   for (double& value : v) value *= report.share;
   for (double& value : a) value *= report.share;

@@ -82,6 +82,7 @@ struct MotionReport
   MotionMeasures recorded, corrected;
   SpectralChange spectrum; ///< by the correction
   double share = 1;        ///< of the record that goes up: a half of an outcrop
+  int parts = 1; ///< of a step, between which the acceleration is straight: 8 where it comes of differences
   std::vector<std::string> warnings;
 };
 
@@ -96,6 +97,8 @@ struct GroundMotion
 
   double duration() const { return velocity.empty() ? 0 : dt * double(velocity.size() - 1); } ///< s
 
+  /// Step (s) of samples between which the acceleration may be taken as straight.
+  double straight_step() const { return dt / report.parts; }
   /// v_up at time t in s: 0 up to the start, the last value after the end (0 unless baseline is none).
   double upgoing_velocity(double t) const;
   /// Slope of upgoing_velocity: 0 before the record's first and after its last sample.

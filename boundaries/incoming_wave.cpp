@@ -24,8 +24,8 @@ double common_step(const IncomingWave& wave)
 {
   constexpr int most_parts = 20;
   if (!wave.horizontal && !wave.vertical) return 0;
-  const double one = (wave.horizontal ? wave.horizontal : wave.vertical)->dt,
-               other = (wave.vertical ? wave.vertical : wave.horizontal)->dt;
+  const double one = (wave.horizontal ? wave.horizontal : wave.vertical)->straight_step(),
+               other = (wave.vertical ? wave.vertical : wave.horizontal)->straight_step();
   const double less = std::min(one, other), more = std::max(one, other);
   const auto divides = [&](int parts)
   {

@@ -60,7 +60,8 @@ std::size_t sample_count(double step, double until);
 /// Samples of a motion as a run applies it: with the fade, every `step` s from 0 on and not beyond `until` s.
 GroundMotion sampled(const GroundMotion& motion, const Fade& fade, double step, double until);
 
-/// A step in s at which samples of the wave leave out none of its records' own: the greatest that divides the
-/// steps of both; a twentieth of the smaller one where there is none above that. 0: there is no record.
+/// A step in s at which samples of the wave leave out none of its records' own, nor bends of acceleration in
+/// between: the greatest that divides the straight steps of both; a twentieth of the smaller one where there
+/// is none above that. 0: there is no record.
 double common_step(const IncomingWave& wave);
 } // namespace mpm

@@ -279,6 +279,9 @@ def main():
             words = f"block on a plane of {given.angle:g} degrees, uphill on the {given.uphill}"
             words += f", friction of {given.material}" if given.material else ""
             result = analyse(given.folder, block_on_plane(given), 1 if given.uphill == "left" else -1, words)
+        if not (given.folder / "final.h5").exists():
+            print(f"newmark: {given.folder}: the run is not finished: this is the motion until t = {result['run']['until']:.2f} s",
+                  file=sys.stderr)
         (given.folder / "newmark.json").write_text(json.dumps(result, indent=1) + "\n")
         print("\n".join(lines_of(result)))
         (given.folder / "pictures").mkdir(exist_ok=True)

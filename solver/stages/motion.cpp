@@ -276,8 +276,9 @@ Fade planned_fade(const MotionSettings& settings)
 
 MotionMeasures measures_applied(const GroundMotion& motion, const Fade& fade, double until)
 {
-  const GroundMotion samples = sampled(motion, fade, motion.dt, std::min(until, motion.duration()));
-  return measure(samples.velocity, samples.acceleration, motion.dt, 1 / motion.report.share);
+  const GroundMotion samples =
+      sampled(motion, fade, motion.straight_step(), std::min(until, motion.duration()));
+  return measure(samples.velocity, samples.acceleration, samples.dt, 1 / motion.report.share);
 }
 
 bool makes_motion(const std::string& key)

@@ -124,3 +124,31 @@ TEST_CASE("samples of two records have a step that leaves out none of either's",
   alone.vertical = motion_of(0.005, 5);
   CHECK(common_step(alone) == 0.005);
 }
+
+TEST_CASE("between samples of a wave its acceleration is straight, of a velocity record's too",
+          "[boundaries]")
+{
+  // A packet at 5 Hz in steps of 20 ms. Chords of acceleration miss (w step)^2 / 12 of the velocity: nothing
+  // where the velocity was made of them, 0.05 % with an eighth of the step (3.3 % with the whole).
+  for (const Quantity quantity : {Quantity::acceleration, Quantity::velocity})
+  {
+    Record record{"test", "column", "", 0.02, quantity, {}, {}};
+    for (int i = 0; i <= 400; ++i)
+      record.values.push_back(std::exp(-std::pow(0.02 * i - 4, 2)) * std::sin(10 * pi * (0.02 * i - 4)));
+    MotionProcessing untouched;
+    untouched.baseline = Baseline::none;
+    IncomingWave wave;
+    wave.horizontal = make_ground_motion(record, untouched);
+    const double step = common_step(wave);
+    const GroundMotion samples = sampled(*wave.horizontal, {}, step, 8);
+    double v = 0, off = 0, most = 0;
+    for (std::size_t i = 1; i < samples.velocity.size(); ++i)
+    {
+      v += 0.5 * step * (samples.acceleration[i - 1] + samples.acceleration[i]);
+      off = std::max(off, std::abs(v - samples.velocity[i] + samples.velocity[0]));
+      most = std::max(most, std::abs(samples.velocity[i]));
+    }
+    CHECK(step == (quantity == Quantity::acceleration ? 0.02 : 0.0025));
+    CHECK(off < (quantity == Quantity::acceleration ? 1e-12 : 1e-3) * most);
+  }
+}

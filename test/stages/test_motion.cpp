@@ -320,3 +320,13 @@ TEST_CASE("the slope that is shipped applies its whole motion, in its quick prof
                Contains("PGA 0.250 g at 8.68 s") && Contains("for 49.99 s") && !Contains("beyond the end"));
   }
 }
+
+TEST_CASE("a static stage does not need the record that the length of the shaking comes from", "[stages]")
+{
+  const Bench bench;
+  const Ending ending =
+      bench.run("mpm-static", {bench.path("case.yaml"), "--check", "--set", "seismic.duration=record + 10 s",
+                               "--set", "seismic.motion.horizontal.file=nowhere.txt"});
+  INFO(ending.said);
+  CHECK(ending.code == 0);
+}
