@@ -15,11 +15,15 @@ std::optional<PeerHeader> numbers_first(const RecordSource& source, const Line& 
   skip_separator(rest);
   const auto dt = take_number(rest);
   if (!count || !dt) return {};
+  if (rest.find_first_not_of(" \t,") != lower(rest).find("npts"))
+    refuse(source, line,
+           "has " + shown(trimmed(rest)) + " behind its numbers; write them as '4164 .0100 NPTS, DT'");
   const std::string_view unit = bare(line.text.substr(dt_word + 2));
   const auto step_unit = parse_step_unit(unit);
   if (!unit.empty() && !step_unit)
     refuse(source, line,
            "states the unit of DT as " + shown(unit) + ", which is not known; write SEC or MSEC");
+  if (!step_unit) refuse_bare_step(source, line, *dt);
   return PeerHeader{index,
                     *count >= 2 && *count <= 1e9 && *count == std::floor(*count) ? std::size_t(*count) : 0,
                     step_unit ? step_unit->seconds(*dt) : *dt};
@@ -40,8 +44,7 @@ std::optional<PeerHeader> words_first(const RecordSource& source, const Line& li
   if (!word.empty() && is_letter(word[0]) && std::ranges::find(next, std::string_view(word)) == next.end())
     refuse(source, line,
            "states the unit of DT as " + shown(step->unknown) + ", which is not known; write SEC or MSEC");
-  if (!step->has_unit && step->seconds >= 1)
-    refuse(source, line, "DT is " + number(step->seconds) + " without a unit; write SEC or MSEC behind it");
+  if (!step->has_unit) refuse_bare_step(source, line, step->seconds);
   const bool whole = *count >= 2 && *count <= 1e9 && *count == std::floor(*count);
   return PeerHeader{index, whole ? std::size_t(*count) : 0, step->seconds};
 }
