@@ -35,8 +35,13 @@ def read(path):
         values = numpy.array(" ".join(lines[k + 1 :]).split(), dtype=float)
     except ValueError as error:
         raise BadRecord(f"{path}: {error}") from error
-    if values.size < int(count[1]):
+    if not numpy.isfinite(values).all():
+        raise BadRecord(f"{path}: holds values that are no numbers; fetch it again")
+    if values.size < int(count[1]) or values[int(count[1]) :].any():
         raise BadRecord(f"{path}: the header tells of {count[1]} values, there are {values.size}")
+    unit = re.match(r"\s*,?\s*([A-Za-z]+)", line[step.end() :]) if step.re.pattern.startswith("DT") else None
+    if unit and unit[1].lower() not in ("s", "sec", "seconds", "npts"):
+        raise BadRecord(f"{path}: its DT is in {unit[1]}; write it in SEC")
     return lines[:k], values[: int(count[1])], float(step[1])
 
 
@@ -83,7 +88,9 @@ def make(options):
     header, values, step = read(options.east)
     note = os.path.basename(options.east)
     if options.north:
-        _, north, other_step = read(options.north)
+        other_header, north, other_step = read(options.north)
+        if header[-1:] != other_header[-1:]:
+            raise BadRecord(f"the records differ: '{header[-1].strip()}' and '{other_header[-1].strip()}'")
         if step != other_step or values.size != north.size:
             raise BadRecord(f"the records differ: {values.size} values of {step} s and {north.size} of {other_step} s")
         values = resolve(values, north, options.azimuth)
