@@ -111,6 +111,20 @@ std::vector<double> column_beside_time(const RecordSource& source, const Line& l
              "; write the values of one component only");
 }
 
+/// Whether numbers differ far less from those above them than from those beside them, as components in
+/// columns do. Running text does so only where it repeats itself line by line.
+bool looks_like_columns(const std::vector<std::vector<double>>& rows)
+{
+  double beside = 0, above = 0;
+  for (std::size_t i = 1; i + 1 < rows.size(); ++i)
+    for (std::size_t k = 1; k < std::min(rows[i].size(), rows[i - 1].size()); ++k)
+    {
+      beside += std::pow(rows[i][k] - rows[i][k - 1], 2);
+      above += std::pow(rows[i][k] - rows[i - 1][k], 2);
+    }
+  return rows.size() >= 20 && above < 0.3 * beside;
+}
+
 /// What is more than NPTS has to be padding with zeros.
 void check_padding(const RecordSource& source, const Line& line, const Body& body, std::size_t count)
 {
@@ -181,6 +195,10 @@ Record read_peer(const RecordSource& source, const std::vector<Line>& lines, con
   for (const auto& row : body.rows) values.insert(values.end(), row.begin(), row.end());
   values.resize(count);
   Record record = finished(source, "peer", unit, dt, std::move(values));
+  if (looks_like_columns(body.rows))
+    record.warnings.push_back(source.file +
+                              ": its lines look like components in columns, and are read as one after "
+                              "the other; if they are columns, write one component only");
   if (body.values > count || body.end < lines.size())
     record.notes.push_back(source.file + ": what follows the " + std::to_string(count) +
                            " values of NPTS is passed over");

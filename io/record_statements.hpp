@@ -63,10 +63,6 @@ void refuse_bare_step(const RecordSource& source, const Line& line, double step)
 /// All of "dt = 0.01 s", "sampling rate: 100 Hz", "Sampling interval (ms) 10".
 std::vector<SaidStep> steps_said_by(const std::vector<Line>& lines);
 
-/// Text behind "of", "are", "is", "in", ":" and "=", which stand between a word as units and what it tells;
-/// `joined`: whether there were any.
-std::string_view without_joints(std::string_view text, bool& joined);
-
 /// Unit of a PEER file by its extension; empty if it has another.
 std::optional<RecordUnit> unit_by_extension(const std::string& file);
 /// The unit to use, once case, header and extension have been found to agree.

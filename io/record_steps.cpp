@@ -1,4 +1,5 @@
 #include "io/record_statements.hpp"
+#include "io/record_words.hpp"
 
 #include <algorithm>
 #include <array>

@@ -22,6 +22,13 @@ std::string peer(const std::string& line, const std::string& npts = "NPTS=  3, D
 
 constexpr double g = standard_gravity;
 
+/// A line of three components that change little from line to line.
+std::string print_three(int i)
+{
+  return std::to_string(std::sin(.2 * i)) + " " + std::to_string(3 * std::cos(.1 * i)) + " " +
+         std::to_string(-2 * std::sin(.15 * i));
+}
+
 struct Spelling
 {
   std::string text;
@@ -209,6 +216,9 @@ TEST_CASE("columns in a PEER file are no running text", "[io]")
   };
   const auto value = [](int i) { return std::to_string((i * 7919 % 101 - 50) / 100.); };
   const auto three = body(20, [&](int i) { return value(i) + " " + value(i + 5) + " " + value(i + 9); });
+  const auto smooth = body(30, [](int i) { return print_three(i); });
+  CHECK(parse_record(std::string(smooth).replace(smooth.find("NPTS= 30"), 8, "NPTS= 90"), source_of())
+            .warnings.size() == 1);
   CHECK_THAT(refusal(three, source_of()), Contains("r.AT2:2: holds 20 lines of 3 numbers in columns"));
   const auto indexed = body(20, [&](int i) { return std::to_string(i + 1) + " " + value(i); });
   CHECK_THAT(refusal(indexed, source_of()), Contains("in columns"));
@@ -257,8 +267,9 @@ TEST_CASE("comments and headings of columns are read, and contradict no option",
   { return source_of("r.csv", dt, std::move(unit)); };
   for (std::string head :
        {"# Time (s), Acceleration (cm/s2)\n", "time (s), NS (cm/s/s)\n", "% units: gal\n", "t, a_gal\n",
-        "sec, gal\n", "# acceleration in cm/s/s\n", "time [s]; acc [cm/sec^2]\n", "Time (s)\tAcc (gal)\n",
-        "t (s) a (gal)\n", "# a record of 2001\n# UNITS OF CM/S/S\ntime, acc\n"})
+        "sec, gal\n", "# acceleration in cm/s/s\n", "time, a(t) (gal)\n", "time (s), acc (station 5) (gal)\n",
+        "time [s]; acc [cm/sec^2]\n", "Time (s)\tAcc (gal)\n", "t (s) a (gal)\n",
+        "# a record of 2001\n# UNITS OF CM/S/S\ntime, acc\n"})
   {
     INFO(head);
     check_values(parse_record(head + rows, csv()), {1, 2, -3}, .01);
