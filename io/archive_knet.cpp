@@ -74,6 +74,10 @@ Record read_knet(const RecordSource& source, Lines lines)
   for (const Line& line : lines)
     if (line.number > memo.number)
       for (double count : numbers_at(source, Line{bare(line.text), line.number})) values.push_back(count);
+  const auto ends_blank = [](const Line& line) { return !line.text.empty() && is_blank(line.text.back()); };
+  if (ends_blank(lines[lines.size() - 2]) && !ends_blank(lines.back()) && !lines.back().text.empty())
+    refuse(source, lines.back(),
+           "ends without the blank of the lines above it; fetch it again, it is cut off");
   const auto expected = std::size_t(std::llround(rate * duration));
   if (values.size() != expected)
     refuse(source, labelled(source, lines, "Duration Time(s)"),

@@ -21,114 +21,136 @@ struct BadRow
   std::string what;
 };
 
-/// SI value of a unit of length; empty if the text is none.
-std::optional<double> length_unit(std::string_view text)
+struct LengthUnit
 {
-  struct Unit
-  {
-    std::string_view name;
-    double si;
-  };
-  constexpr std::array units{Unit{"m", 1},         Unit{"meter", 1},      Unit{"meters", 1},
-                             Unit{"metre", 1},     Unit{"metres", 1},     Unit{"cm", 0.01},
-                             Unit{"mm", 0.001},    Unit{"km", 1000},      Unit{"ft", 0.3048},
-                             Unit{"foot", 0.3048}, Unit{"feet", 0.3048},  Unit{"in", 0.0254},
-                             Unit{"inch", 0.0254}, Unit{"inches", 0.0254}};
-  const auto found = std::ranges::find(units, std::string_view(lower(text)), &Unit::name);
-  return found == units.end() ? std::nullopt : std::optional(found->si);
-}
-
-bool is_one_of(const std::string& name, std::initializer_list<std::string_view> names)
-{
-  return std::ranges::find(names, std::string_view(name)) != names.end();
-}
-
-/// What a heading says of a column: its name, and SI value of its unit (1 if it names none).
-struct Column
-{
-  std::string name;
-  double si = 1;
+  std::string_view name;
+  double si;
 };
 
-Column column_of(std::string_view cell, int row)
+/// A unit of length by a word of prose, where "in" and "foot" mean other things.
+const LengthUnit* length_unit(std::string_view word)
 {
-  const std::size_t open = cell.find_first_of("([");
-  std::string_view name = cell.substr(0, open), unit;
-  if (open != cell.npos) unit = cell.substr(open + 1, cell.find_last_of(")]") - open - 1);
-  const std::size_t mark = name.find_last_of("_ ", name.find_last_not_of(" \t"));
-  if (unit.empty() && mark != name.npos && length_unit(name.substr(mark + 1))) unit = name.substr(mark + 1);
-  while (!name.empty() && is_blank(name.back())) name.remove_suffix(1);
-  const auto si = unit.empty() ? 1 : length_unit(unit);
-  if (!si)
-    throw BadRow{row, "states the unit '" + std::string(unit) +
-                          "', which is not known; write x (m), y (m), or cm, "
-                          "mm, km, ft, in"};
-  return {lower(name), *si};
+  static constexpr std::array units{
+      LengthUnit{"m", 1},           LengthUnit{"meter", 1},       LengthUnit{"meters", 1},
+      LengthUnit{"metre", 1},       LengthUnit{"metres", 1},      LengthUnit{"cm", 0.01},
+      LengthUnit{"mm", 0.001},      LengthUnit{"km", 1000},       LengthUnit{"ft", 0.3048},
+      LengthUnit{"feet", 0.3048},   LengthUnit{"inch", 0.0254},   LengthUnit{"inches", 0.0254},
+      LengthUnit{"yd", 0.9144},     LengthUnit{"yard", 0.9144},   LengthUnit{"yards", 0.9144},
+      LengthUnit{"mile", 1609.344}, LengthUnit{"miles", 1609.344}};
+  const auto found = std::ranges::find(units, word, &LengthUnit::name);
+  return found == units.end() ? nullptr : &*found;
 }
 
-/// The two columns of a heading "x (ft), y (ft)". Refuses depths and columns in the other order.
-std::array<Column, 2> columns_in(const std::vector<std::string_view>& names, int row)
+/// The units that a text in lower case names; not the lengths in it, as "5 ft".
+std::vector<const LengthUnit*> units_in(std::string_view text)
 {
-  const std::array columns{column_of(names[0], row), column_of(names[1], row)};
-  const auto is_height = [](const std::string& name) {
-    return is_one_of(name, {"y", "z", "elevation", "height", "level", "altitude"});
-  };
-  if (columns[0].name == "depth" || columns[1].name == "depth")
+  std::vector<const LengthUnit*> units;
+  for (std::size_t at = 0; at < text.size();)
+  {
+    const std::size_t begin = at;
+    while (at < text.size() && is_letter(text[at])) ++at;
+    const std::size_t before = begin == 0 ? text.npos : text.find_last_not_of(" \t", begin - 1);
+    const bool measures = before != text.npos && is_digit(text[before]);
+    if (const LengthUnit* unit = length_unit(text.substr(begin, at - begin)); unit && !measures)
+      units.push_back(unit);
+    if (at == begin) ++at;
+  }
+  return units;
+}
+
+/// Refuses depths and columns in the other order: "y, x".
+void check_names(const std::string& first, const std::string& second, int row)
+{
+  const auto begins = [](const std::string& name, std::string_view word)
+  { return find_word(name, word) == 0; };
+  if (begins(first, "depth") || begins(second, "depth"))
     throw BadRow{row, "has depths; write heights y, positive upwards"};
-  if (is_height(columns[0].name) && !is_height(columns[1].name))
-    throw BadRow{row,
-                 "has '" + columns[0].name + "' before '" + columns[1].name + "'; write x first, then y"};
-  return columns;
+  for (std::string_view height : {"y", "z", "elevation", "height", "level", "altitude"})
+    if (begins(first, height) && !begins(second, height) && !begins(second, "z"))
+      throw BadRow{row, "has '" + first + "' before '" + second + "'; write x first, then y"};
 }
 
-/// "units: ft", "coordinates in feet": the unit of both columns that a comment states; empty if it states
-/// none.
-std::optional<double> unit_of_comment(std::string_view comment, int row)
+/// The unit of a heading's column; null if it names none. Refuses one in brackets that is not known.
+const LengthUnit* unit_of_column(const std::string& name, int row)
 {
-  const std::string text = lower(comment);
-  for (std::string_view key : {"units", "unit", "in"})
-    for (std::size_t at = 0; (at = find_word(text, key, at)) != text.npos; at += key.size())
-    {
-      std::string_view rest = std::string_view(text).substr(at + key.size());
-      for (std::string_view joint : {" ", ":", "=", "of ", "are ", "is ", "in ", "(", " "})
-        while (rest.starts_with(joint)) rest.remove_prefix(joint.size());
-      const std::string_view word = rest.substr(0, rest.find_first_of(" \t.,;)"));
-      if (const auto si = length_unit(word)) return si;
-      if (key != "in" && !word.empty())
-        throw BadRow{row, "states the unit '" + std::string(word) +
-                              "', which is not known; write m, cm, mm, km, ft or in"};
-    }
-  return {};
+  static constexpr LengthUnit foot{"ft", 0.3048}, inch{"in", 0.0254};
+  const auto units = units_in(name);
+  if (!units.empty()) return units.back();
+  const std::size_t open = name.find_first_of("([");
+  if (open == name.npos) return nullptr;
+  const std::string_view inside = bracket(std::string_view(name).substr(open));
+  if (inside == "foot") return &foot;
+  if (inside == "in") return &inch;
+  throw BadRow{row, "states the unit '" + std::string(inside) +
+                        "', which is not known; write x (m), y (m), or cm, mm, km, ft, in"};
 }
 
-/// Two columns x, y; `#` begins a comment. A heading, in the first line or a comment above, may name them
-/// with their units.
+/// SI values of the units of both columns, as heading and comments above the numbers say; m by default.
+class Units
+{
+public:
+  /// A heading, or a comment that may be one.
+  void add(const Line& line, std::string_view heading, bool is_comment)
+  {
+    const std::string text = lower(heading);
+    const auto names = names_in(text, 2);
+    if (names.size() == 2)
+    {
+      const std::string first(names[0]), second(names[1]);
+      check_names(first, second, line.number);
+      const LengthUnit *x = unit_of_column(first, line.number), *y = unit_of_column(second, line.number);
+      if (x && y) columns_ = {x->si, y->si};
+      if (x && y) return;
+    }
+    const auto units = units_in(text);
+    const bool says = find_word(text, "units") != text.npos || find_word(text, "unit") != text.npos;
+    if (units.empty() && says && is_comment)
+      throw BadRow{line.number,
+                   "states a unit that is not known, '" + text + "'; write m, cm, mm, km, ft or in"};
+    for (const LengthUnit* unit : units)
+    {
+      if (all_ && all_->si != unit->si)
+        throw BadRow{line.number, "names the unit " + std::string(unit->name) + " beside " +
+                                      std::string(all_->name) + "; write a heading as 'x (m), y (ft)'"};
+      all_ = unit;
+    }
+  }
+  std::array<double, 2> si(int row) const
+  {
+    if (!columns_) return {all_ ? all_->si : 1, all_ ? all_->si : 1};
+    if (all_ && all_->si != (*columns_)[0] && all_->si != (*columns_)[1])
+      throw BadRow{row, "is below a heading and a comment of different units; mend either"};
+    return *columns_;
+  }
+
+private:
+  std::optional<std::array<double, 2>> columns_; ///< each with a unit of its own in a heading
+  const LengthUnit* all_ = nullptr;
+};
+
+/// Two columns x, y; `#` begins a comment. The first line may be a heading.
 Polyline parse_line(const std::vector<Line>& lines)
 {
   Polyline polyline;
-  std::array<Column, 2> columns;
-  bool above = true;
+  Units units;
+  bool heading_allowed = true;
   for (const Line& line : lines)
   {
-    std::string_view text = line.text.substr(0, line.text.find('#'));
-    while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
-    std::string_view heading = text;
-    if (text.empty())
-      heading = line.text.substr(std::min(line.text.find_first_not_of("# \t"), line.text.size()));
-    const auto names = above ? names_in(heading, 2) : std::vector<std::string_view>{};
-    const bool comment = text.empty();
-    const bool brackets = names.size() == 2 && names[0].find_first_of("([") != std::string_view::npos;
-    if (names.size() == 2 && (!comment || brackets || lower(names[0]).starts_with("x")))
-      columns = columns_in(names, line.number);
-    else if (const auto si = comment && above ? unit_of_comment(heading, line.number) : std::nullopt)
-      columns[0].si = columns[1].si = *si;
-    above = above && comment;
-    if (comment || names.size() == 2) continue;
+    const std::size_t mark = std::min(line.text.find('#'), line.text.size());
+    const std::string_view text = trimmed(line.text.substr(0, mark)), comment = line.text.substr(mark);
+    const bool is_heading = heading_allowed && !names_in(text, 2).empty();
+    if (is_heading) units.add(line, text, false);
+    if (polyline.x.empty() && !comment.empty() && (text.empty() || is_heading))
+      units.add(line, trimmed(comment.substr(std::min(comment.find_first_not_of('#'), comment.size()))),
+                true);
+    heading_allowed = heading_allowed && text.empty();
+    if (text.empty() || is_heading) continue;
     if (has_decimal_commas(text)) throw BadRow{line.number, "has decimal commas; write decimal points"};
     const auto numbers = numbers_in(text);
     if (!numbers || numbers->size() != 2) throw BadRow{line.number, "must be two numbers, x and y in m"};
-    polyline.x.push_back((*numbers)[0] * columns[0].si);
-    polyline.y.push_back((*numbers)[1] * columns[1].si);
+    const auto [x_unit, y_unit] = units.si(line.number);
+    polyline.x.push_back((*numbers)[0] * x_unit);
+    polyline.y.push_back((*numbers)[1] * y_unit);
   }
   if (polyline.x.empty()) throw BadRow{0, "has no points"};
   return polyline;

@@ -50,6 +50,10 @@ RecordUnit agreed_unit(const RecordSource& source, const Said& said,
   const auto of_file = said.unit ? said.unit : by_extension;
   const auto unit = given ? given : of_file;
   if (!unit) refuse(source, "its unit is not in the file; give unit, e.g. unit: g");
+  if (!said.unit && said.mention && !(said.mention->unit == *unit))
+    refuse(source, said.mention->line,
+           "names " + said.mention->unit.name + ", and the unit is taken to be " + unit->name +
+               "; write 'UNITS OF ...' into the header");
   const auto held = of_file ? std::optional(of_file->quantity) : said.quantity;
   if (held && *held != unit->quantity)
     refuse(source, "it holds " + std::string(name_of(*held)) + ", and unit " + unit->name + " is one of " +

@@ -15,11 +15,15 @@ std::optional<PeerHeader> numbers_first(const RecordSource& source, const Line& 
   skip_separator(rest);
   const auto dt = take_number(rest);
   if (!count || !dt) return {};
+  if (rest.find_first_not_of(" \t,") != lower(rest).find("npts"))
+    refuse(source, line,
+           "has " + shown(trimmed(rest)) + " behind its numbers; write them as '4164 .0100 NPTS, DT'");
   const std::string_view unit = bare(line.text.substr(dt_word + 2));
   const auto step_unit = parse_step_unit(unit);
   if (!unit.empty() && !step_unit)
     refuse(source, line,
            "states the unit of DT as " + shown(unit) + ", which is not known; write SEC or MSEC");
+  if (!step_unit) refuse_bare_step(source, line, *dt);
   return PeerHeader{index,
                     *count >= 2 && *count <= 1e9 && *count == std::floor(*count) ? std::size_t(*count) : 0,
                     step_unit ? step_unit->seconds(*dt) : *dt};
@@ -40,8 +44,7 @@ std::optional<PeerHeader> words_first(const RecordSource& source, const Line& li
   if (!word.empty() && is_letter(word[0]) && std::ranges::find(next, std::string_view(word)) == next.end())
     refuse(source, line,
            "states the unit of DT as " + shown(step->unknown) + ", which is not known; write SEC or MSEC");
-  if (!step->has_unit && step->seconds >= 1)
-    refuse(source, line, "DT is " + number(step->seconds) + " without a unit; write SEC or MSEC behind it");
+  if (!step->has_unit) refuse_bare_step(source, line, step->seconds);
   const bool whole = *count >= 2 && *count <= 1e9 && *count == std::floor(*count);
   return PeerHeader{index, whole ? std::size_t(*count) : 0, step->seconds};
 }
@@ -106,6 +109,20 @@ std::vector<double> column_beside_time(const RecordSource& source, const Line& l
          "holds " + std::to_string(rows.size()) + " lines of " + std::to_string(width) +
              " numbers in columns, and NPTS is " + std::to_string(header.count) +
              "; write the values of one component only");
+}
+
+/// Whether numbers differ far less from those above them than from those beside them, as components in
+/// columns do. Running text does so only where it repeats itself line by line.
+bool looks_like_columns(const std::vector<std::vector<double>>& rows)
+{
+  double beside = 0, above = 0;
+  for (std::size_t i = 1; i + 1 < rows.size(); ++i)
+    for (std::size_t k = 1; k < std::min(rows[i].size(), rows[i - 1].size()); ++k)
+    {
+      beside += std::pow(rows[i][k] - rows[i][k - 1], 2);
+      above += std::pow(rows[i][k] - rows[i - 1][k], 2);
+    }
+  return rows.size() >= 20 && above < 0.3 * beside;
 }
 
 /// What is more than NPTS has to be padding with zeros.
@@ -178,6 +195,10 @@ Record read_peer(const RecordSource& source, const std::vector<Line>& lines, con
   for (const auto& row : body.rows) values.insert(values.end(), row.begin(), row.end());
   values.resize(count);
   Record record = finished(source, "peer", unit, dt, std::move(values));
+  if (looks_like_columns(body.rows))
+    record.warnings.push_back(source.file +
+                              ": its lines look like components in columns, and are read as one after "
+                              "the other; if they are columns, write one component only");
   if (body.values > count || body.end < lines.size())
     record.notes.push_back(source.file + ": what follows the " + std::to_string(count) +
                            " values of NPTS is passed over");

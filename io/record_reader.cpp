@@ -20,9 +20,9 @@ Record finished(const RecordSource& source, std::string format, const RecordUnit
   if (values.size() < 2) refuse(source, "holds " + std::to_string(values.size()) + " values; not a record");
   for (double& value : values) value *= unit.si;
   Record record{source.file, std::move(format), unit.name, dt, unit.quantity, std::move(values), {}};
-  if (dt > 0.5)
-    record.warnings.push_back(source.file + ": its time step is " + number(dt) +
-                              " s, which carries no more than " + number(0.5 / dt) + " Hz; is it right?");
+  if (dt > 0.2 || dt < 5e-4)
+    record.warnings.push_back(source.file + ": its time step is " + number(dt) + " s, which carries up to " +
+                              number(0.5 / dt) + " Hz; is it right?");
   return record;
 }
 

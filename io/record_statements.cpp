@@ -1,15 +1,14 @@
 #include "io/record_statements.hpp"
 
+#include "io/record_words.hpp"
+
 #include <algorithm>
 #include <array>
-#include <initializer_list>
 
 namespace mpm::records
 {
 namespace
 {
-using Names = std::initializer_list<std::string_view>;
-
 /// How surely a line speaks of the recorded values; the first that occurs decides.
 enum Rank
 {
@@ -17,6 +16,7 @@ enum Rank
   of_the_file,   ///< "units: g"
   in_passing,    ///< the word units in a title
   of_another,    ///< an instrument's, a peak's
+  mentioned,     ///< an acceleration's unit by itself: it may not contradict what the unit is taken to be
 };
 
 struct Statement
@@ -26,73 +26,6 @@ struct Statement
   std::string unknown;
   Line line;
 };
-
-bool has_word(std::string_view text, Names words)
-{
-  return std::ranges::any_of(words,
-                             [&](std::string_view word) { return find_word(text, word) != text.npos; });
-}
-
-struct QuantityWord
-{
-  Quantity quantity;
-  std::size_t end; ///< of the word in the line
-};
-
-std::optional<QuantityWord> quantity_word(std::string_view text)
-{
-  struct Word
-  {
-    std::string_view text;
-    Quantity quantity;
-  };
-  using enum Quantity;
-  constexpr std::array words{Word{"acceleration", acceleration},
-                             Word{"accelerations", acceleration},
-                             Word{"accel", acceleration},
-                             Word{"acc", acceleration},
-                             Word{"velocity", velocity},
-                             Word{"velocities", velocity},
-                             Word{"veloc", velocity},
-                             Word{"vel", velocity},
-                             Word{"displacement", displacement},
-                             Word{"displacements", displacement},
-                             Word{"displ", displacement},
-                             Word{"disp", displacement}};
-  for (const Word& word : words)
-    if (const std::size_t at = find_word(text, word.text); at != text.npos)
-      return QuantityWord{word.quantity, at + word.text.size()};
-  return {};
-}
-
-/// The words up to a comma, a full stop, a wide gap or the end of a bracket.
-std::string_view phrase(std::string_view text)
-{
-  text = trimmed(text);
-  if (const std::string_view inside = bracket(text); !inside.empty()) return trimmed(inside);
-  int depth = 0;
-  for (std::size_t i = 0; i < text.size(); ++i)
-  {
-    const char c = text[i], next = i + 1 < text.size() ? text[i + 1] : ' ';
-    depth += (c == '(' || c == '[') - (c == ')' || c == ']');
-    const bool stop = c == ',' || c == ';' || c == '\t' || (c == '.' && is_blank(next)) ||
-                      (is_blank(c) && is_blank(next) && i + 1 < text.size()) || depth < 0;
-    if (stop) return trimmed(text.substr(0, i));
-  }
-  return text;
-}
-
-std::vector<std::string_view> words_of(std::string_view text)
-{
-  std::vector<std::string_view> words;
-  for (std::size_t at = 0; (at = text.find_first_not_of(" \t", at)) != text.npos;)
-  {
-    const std::size_t end = std::min(text.find_first_of(" \t", at), text.size());
-    words.push_back(text.substr(at, end - at));
-    at = end;
-  }
-  return words;
-}
 
 /// Whether a word behind a unit makes it another: "g X 10", "g /100", "cm per".
 bool goes_on(std::string_view word)
@@ -107,6 +40,11 @@ bool goes_on(std::string_view word)
 Statement unit_at(std::string_view text, Rank rank, const Line& line)
 {
   std::vector<std::string_view> words = words_of(phrase(text));
+  if (!words.empty() && parse_step_unit(words[0]) && words[0].size() == phrase(text).size()) // "s, m/s2"
+  {
+    const std::size_t comma = text.find_first_of(",;");
+    return comma == text.npos ? Statement{rank, {}, {}, line} : unit_at(text.substr(comma + 1), rank, line);
+  }
   const auto is = [&](std::size_t i, Names names)
   { return i < words.size() && std::ranges::find(names, std::string_view(lower(words[i]))) != names.end(); };
   if (is(0, {"s", "sec", "secs", "seconds"}) && is(1, {"and"})) words.erase(words.begin(), words.begin() + 2);
@@ -125,53 +63,48 @@ Statement unit_at(std::string_view text, Rank rank, const Line& line)
   return {rank, {}, std::string(first_words(std::min<std::size_t>(words.size(), 4))), line};
 }
 
-/// A component or a kind of processing in brackets, no unit: "(N45E)", "(corrected)", "(090)".
-bool is_label(std::string_view text)
-{
-  constexpr std::array<std::string_view, 37> labels{
-      "n",        "s",           "e",         "w",    "u",          "d",      "z",    "h",
-      "v",        "ns",          "ew",        "ud",   "n-s",        "e-w",    "u-d",  "up",
-      "down",     "vertical",    "vert",      "hor",  "horizontal", "long",   "tran", "longitudinal",
-      "north",    "south",       "east",      "west", "transverse", "radial", "raw",  "corrected",
-      "filtered", "uncorrected", "processed", "deg",  "component"};
-  return std::ranges::all_of(words_of(bare(text)),
-                             [&](std::string_view word)
-                             {
-                               const std::string name = lower(word);
-                               if (std::ranges::find(labels, std::string_view(name)) != labels.end())
-                                 return true;
-                               if (std::ranges::all_of(name, is_digit)) return true;
-                               return name.size() > 2 &&
-                                      std::string_view("ns").find(name[0]) != std::string::npos &&
-                                      std::string_view("ew").find(name.back()) != std::string::npos &&
-                                      std::all_of(name.begin() + 1, name.end() - 1, is_digit);
-                             });
-}
-
-bool looks_like_a_unit(std::string_view text)
-{
-  return text.find_first_of("/%^*\xB2") != text.npos || has_word(lower(text), {"counts", "count", "volts"});
-}
-
-/// A unit that follows the quantity: "ACCELERATION IN CM/S/S", "Velocity (cm/s)".
+/// A unit that follows the quantity: "ACCELERATION IN CM/S/S", "Velocity (cm/s)", "ACCELERATION, G".
 void add_after_quantity(std::vector<Statement>& found, const Line& line, std::size_t end)
 {
-  const std::string_view rest = line.text.substr(end);
-  if (const std::size_t in = find_word(lower(rest), "in"); in != rest.npos && in + 2 < rest.size())
-  {
-    Statement statement = unit_at(rest.substr(in + 2), of_the_values, line);
-    if (statement.unit ||
-        looks_like_a_unit(words_of(statement.unknown).empty() ? "" : words_of(statement.unknown)[0]))
-      found.push_back(std::move(statement));
-  }
+  std::string_view rest = line.text.substr(end);
   for (std::size_t at = 0; (at = rest.find_first_of("([", at)) != rest.npos; ++at)
   {
     const std::string_view inside = bracket(rest.substr(at));
+    if (at > 0 && rest[at - 1] == '/') continue; // cm/(s*s)
     const bool directly = trimmed(rest.substr(0, at)).empty();
-    if (const auto unit = parse_unit(inside))
-      found.push_back({of_the_values, unit, {}, line});
-    else if ((directly && !is_label(inside)) || looks_like_a_unit(inside))
-      found.push_back({of_the_values, {}, std::string(inside), line});
+    const auto unit = parse_unit(inside);
+    if (unit || hints_at_unit(inside) || (directly && !is_label(inside)))
+      found.push_back({of_the_values, unit, unit ? "" : std::string(inside), line});
+  }
+  if (!found.empty()) return;
+  for (std::string_view word : {"time series", "time history", "time-history", "data", "record", "values"})
+    if (const std::size_t at = lower(rest).find(word); at != rest.npos) rest.remove_prefix(at + word.size());
+  if (const std::size_t in = behind_in(rest); in != rest.npos) rest.remove_prefix(in);
+  bool joined = false;
+  rest.remove_prefix(std::min(rest.find_first_not_of(" \t,;:=-"), rest.size()));
+  Statement statement = unit_at(without_joints(rest, joined), of_the_values, line);
+  if (statement.unit || hints_at_unit(statement.unknown)) found.push_back(std::move(statement));
+}
+
+/// "DATA IN GAL", "values are in cm/s2".
+void add_after_data(std::vector<Statement>& found, const Line& line, const std::string& text)
+{
+  if (!has_word(text, {"data", "values", "value", "amplitude", "amplitudes"})) return;
+  const std::size_t in = behind_in(text);
+  if (in == text.npos) return;
+  Statement statement = unit_at(line.text.substr(in), of_the_file, line);
+  if (statement.unit || hints_at_unit(statement.unknown)) found.push_back(std::move(statement));
+}
+
+/// Units of acceleration by themselves in a line of anything else.
+void add_mentions(std::vector<Statement>& found, const Line& line)
+{
+  for (std::string_view word : cells_of(line.text, " \t,;:()[]="))
+  {
+    const auto unit = parse_unit(word);
+    const bool sure = word.find('/') != word.npos || lower(word) == "gal" || lower(word) == "gals";
+    if (unit && sure && unit->quantity == Quantity::acceleration)
+      found.push_back({mentioned, unit, {}, line});
   }
 }
 
@@ -192,14 +125,20 @@ std::vector<Statement> statements_in(const Line& line)
   for (std::string_view word : {"units", "unit"})
     for (std::size_t at = 0; (at = find_word(text, word, at)) != text.npos; at += word.size())
     {
+      if (trimmed(std::string_view(text).substr(0, at)).ends_with("time")) continue;
       has_units = true;
       bool joined = false;
-      const std::string_view rest = without_joints(line.text.substr(at + word.size()), joined);
+      std::string_view rest = without_joints(line.text.substr(at + word.size()), joined);
+      if (const auto named = quantity_word(lower(rest));
+          named && named->begin == 0) // "UNITS OF ACCELERATION: G"
+        rest = without_joints(rest.substr(named->end), joined);
       const bool other = is_of_another(text.substr(0, at));
       const Rank rank = other ? of_another : quantity ? of_the_values : joined ? of_the_file : in_passing;
       found.push_back(unit_at(rest, rank, line));
     }
   if (!has_units && quantity && !is_of_another(text)) add_after_quantity(found, line, quantity->end);
+  if (!has_units && !quantity && !is_of_another(text)) add_after_data(found, line, text);
+  if (found.empty() && !has_units && !is_of_another(text)) add_mentions(found, line);
   std::erase_if(found, [](const Statement& s) { return !s.unit && s.unknown.empty(); });
   return found;
 }
@@ -222,26 +161,6 @@ std::string name(const Statement& statement)
 }
 } // namespace
 
-std::string_view without_joints(std::string_view text, bool& joined)
-{
-  for (bool again = true; again;)
-  {
-    again = false;
-    while (!text.empty() && (is_blank(text[0]) || text[0] == ':' || text[0] == '='))
-    {
-      joined = joined || !is_blank(text[0]);
-      text.remove_prefix(1);
-    }
-    for (std::string_view joint : {"of ", "are ", "is ", "in "})
-      if (lower(text.substr(0, joint.size())) == joint)
-      {
-        text.remove_prefix(joint.size());
-        joined = again = true;
-      }
-  }
-  return text;
-}
-
 Said said_by(const RecordSource& source, const std::vector<Line>& lines)
 {
   Said said;
@@ -255,7 +174,9 @@ Said said_by(const RecordSource& source, const std::vector<Line>& lines)
       said.line = line;
     }
   }
-  std::erase_if(all, [](const Statement& s) { return s.rank == of_another; });
+  for (const Statement& statement : all)
+    if (statement.rank == mentioned && !said.mention) said.mention = Mention{*statement.unit, statement.line};
+  std::erase_if(all, [](const Statement& s) { return s.rank >= of_another; });
   if (all.empty()) return said;
   const Statement best = *std::ranges::min_element(all, {}, &Statement::rank);
   for (const Statement& other : all)
@@ -268,7 +189,8 @@ Said said_by(const RecordSource& source, const std::vector<Line>& lines)
              "states the unit " + name(other) + ", and line " + std::to_string(best.line.number) + " " +
                  name(best) + "; mend the header");
   }
-  if (best.rank == in_passing && !best.unit) return said; // "UNITED UNITS LTD."
+  if (best.rank == in_passing && !best.unit && !hints_at_unit(best.unknown))
+    return said; // "UNITED UNITS LTD."
   said.unit = best.unit;
   said.unknown = best.unknown;
   said.line = best.line;
@@ -289,16 +211,18 @@ Said said_by_column(const Line& line, std::string_view name)
     else if (!is_label(inside))
       said.unknown = inside;
   }
+  if (said.unit && !hints_at_unit(said.unknown)) said.unknown.clear(); // "acc (station 5) (g)"
   if (said.unit || !said.unknown.empty()) return said;
-  const std::vector<std::string_view> words = words_of(name);
-  std::vector<std::string_view> tails{name};
-  if (const std::size_t in = find_word(text, "in"); in != text.npos && in > 0)
-    tails.push_back(name.substr(in + 2));
-  if (words.size() > 1) tails.push_back(words.back());
-  if (const std::size_t bar = name.rfind('_'); bar != name.npos) tails.push_back(name.substr(bar + 1));
-  for (std::string_view tail : tails)
-    if (!said.unit) said.unit = parse_unit(tail);
-  if (!said.unit && !words.empty() && looks_like_a_unit(words.back())) said.unknown = words.back();
+  if (said.unit = parse_unit(name); said.unit) return said;
+  std::size_t tail = std::min(name.find_last_of(" \t_") + 1, name.size()); // npos + 1 is 0
+  if (const std::size_t in = behind_in(text); in != text.npos && in > 2) tail = in;
+  const std::string_view before = name.substr(0, tail);
+  const auto unit = parse_unit(name.substr(tail));
+  const bool changed = std::ranges::any_of(before, is_digit) || hints_at_unit(before);
+  if (unit && !changed)
+    said.unit = unit;
+  else if (unit || hints_at_unit(name))
+    said.unknown = name;
   return said;
 }
 } // namespace mpm::records

@@ -12,6 +12,13 @@
 
 namespace mpm::records
 {
+/// A unit that a line names without saying whose it is.
+struct Mention
+{
+  RecordUnit unit;
+  Line line;
+};
+
 /// What the words of a header say; line.number 0 where they say nothing.
 struct Said
 {
@@ -19,6 +26,8 @@ struct Said
   std::string unknown; ///< a unit that is stated and not known, as written
   std::optional<Quantity> quantity;
   Line line{{}, 0};
+  std::optional<Mention>
+      mention; ///< where nothing states the unit, it may not contradict the one that is taken
 };
 
 /// The unit that lines of prose state: "ACCELERATION TIME SERIES IN UNITS OF G. FILTER POINTS: ...", "The
@@ -45,15 +54,14 @@ std::optional<StatedStep> take_step(std::string_view text, bool rate = false);
 struct SaidStep
 {
   double seconds;
+  bool has_unit;
   std::string unknown; ///< the word behind the number, where it is no unit
   Line line;
 };
+/// Refuses a step of 1 and more without a unit: 10 is ms, or a count.
+void refuse_bare_step(const RecordSource& source, const Line& line, double step);
 /// All of "dt = 0.01 s", "sampling rate: 100 Hz", "Sampling interval (ms) 10".
 std::vector<SaidStep> steps_said_by(const std::vector<Line>& lines);
-
-/// Text behind "of", "are", "is", "in", ":" and "=", which stand between a word as units and what it tells;
-/// `joined`: whether there were any.
-std::string_view without_joints(std::string_view text, bool& joined);
 
 /// Unit of a PEER file by its extension; empty if it has another.
 std::optional<RecordUnit> unit_by_extension(const std::string& file);

@@ -1,4 +1,5 @@
 #include "io/record_statements.hpp"
+#include "io/record_words.hpp"
 
 #include <algorithm>
 #include <array>
@@ -35,9 +36,19 @@ std::optional<StatedStep> take_step(std::string_view text, bool rate)
   const auto behind = parse_step_unit(word);
   if (unit && behind && (unit->rate != behind->rate || unit->per_second != behind->per_second)) return {};
   if (!unit) unit = behind;
+  if ((unit ? unit->rate : rate) && *value < 1) return {}; // no sampling rate
   StatedStep step{0, unit.has_value(), behind ? "" : std::string(word)};
   step.seconds = (unit ? *unit : StepUnit{1, rate}).seconds(*value);
   return step;
+}
+
+void refuse_bare_step(const RecordSource& source, const Line& line, double step)
+{
+  if (step >= 1)
+    refuse(source, line,
+           "has a time step of " + number(step) +
+               " without a unit; write SEC or MSEC behind it, or a "
+               "step in s");
 }
 
 std::vector<SaidStep> steps_said_by(const std::vector<Line>& lines)
@@ -71,7 +82,7 @@ std::vector<SaidStep> steps_said_by(const std::vector<Line>& lines)
       if (at == text.npos) continue;
       bool joined = false;
       if (const auto step = take_step(without_joints(line.text.substr(at + key.size()), joined), rate))
-        steps.push_back({step->seconds, step->unknown, line});
+        steps.push_back({step->seconds, step->has_unit, step->unknown, line});
       break;
     }
   }

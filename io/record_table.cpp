@@ -54,9 +54,10 @@ FirstLine counts_what_follows(const RecordSource& source, const std::vector<Line
   if (!first || first->empty() || first->size() > 2) return {};
   const std::vector<double> next = numbers_in(data[1].text).value_or(std::vector<double>{});
   const auto tokens = cells_of(data[0].text, " \t,;");
-  const bool is_count = is_whole(tokens[0]) && first->front() >= 5;
-  if (!is_count) return {};
   const auto rest = data.size() - 1;
+  const bool is_count =
+      first->front() >= 5 && (is_whole(tokens[0]) || (first->size() == 1 && first->front() == double(rest)));
+  if (!is_count) return {};
   const std::size_t count = std::size_t(first->front());
   if (first->size() == 2)
   {
@@ -66,6 +67,7 @@ FirstLine counts_what_follows(const RecordSource& source, const std::vector<Line
       refuse(source, data[0],
              "announces " + std::to_string(count) + " values at " + number((*first)[1]) + " s, and " +
                  std::to_string(rest) + " lines follow; mend the first line");
+    refuse_bare_step(source, data[0], (*first)[1]);
     return {count, (*first)[1]};
   }
   if (next.size() != 1) return {};
@@ -73,12 +75,29 @@ FirstLine counts_what_follows(const RecordSource& source, const std::vector<Line
       std::all_of(data.begin() + 1, data.end(), [](const Line& l) { return is_whole(l.text); });
   const bool counts = count == rest;
   if (others_whole && !counts) return {};
-  if (!counts || others_whole)
+  if (!counts || others_whole || !is_whole(tokens[0]))
     refuse(source, data[0],
            "is " + std::string(data[0].text) + ", which looks like a count, and " + std::to_string(rest) +
                " lines follow; remove the line, or write it with a "
                "decimal point if it is a value");
   return {count, NAN};
+}
+
+std::size_t digits_behind_point(std::string_view token)
+{
+  const std::size_t point = token.find('.');
+  if (point == token.npos) return 0;
+  return std::min(token.find_first_not_of("0123456789", point + 1), token.size()) - point;
+}
+
+/// A first value that is the time step given, and written otherwise than the second, is no value.
+void refuse_step_as_value(const RecordSource& source, const std::vector<Line>& data)
+{
+  if (data.size() < 2 || std::isnan(source.dt)) return;
+  const auto first = numbers_in(data[0].text);
+  if (first && first->size() == 1 && first->front() == source.dt &&
+      digits_behind_point(data[0].text) != digits_behind_point(data[1].text))
+    refuse(source, data[0], "is the time step, not a value; remove the line");
 }
 
 Table table_of(const RecordSource& source, const std::vector<Line>& lines, FirstLine& first)
@@ -116,6 +135,7 @@ Table table_of(const RecordSource& source, const std::vector<Line>& lines, First
                           (std::isnan(first.dt) ? "" : " and the time step"));
     data.erase(data.begin());
   }
+  refuse_step_as_value(source, data);
   for (const Line& line : data) add_row(source, table, line, expected);
   if (table.rows.size() < 2)
     refuse(source, "holds " + std::to_string(table.rows.size()) + " values; not a record");
@@ -131,14 +151,20 @@ bool names_time(std::string_view name)
          text.starts_with("zeit");
 }
 
-/// A comment names the columns where it has as many names as there are, the first of them of time.
+/// A comment names the columns where it has as many names as there are, the first of them of time; or, just
+/// above the numbers, the second with a unit.
 void take_names_from_comments(Table& table)
 {
+  const int first = table.lines.front().number;
   for (const Line& comment : table.comments)
   {
-    if (!table.names.empty() || comment.number > table.lines.front().number) return;
+    if (!table.names.empty() || comment.number > first) return;
     const auto names = names_in(comment.text, table.columns());
-    if (table.columns() < 2 || names.empty() || !names_time(names[0])) continue;
+    if (table.columns() < 2 || names.empty()) continue;
+    const bool above = comment.number == first - 1 &&
+                       comment.text.find_first_of(",;\t") != std::string_view::npos &&
+                       said_by_column(comment, names[1]).unit;
+    if (!names_time(names[0]) && !above) continue;
     table.names = names;
     table.heading = comment;
   }
@@ -280,6 +306,7 @@ Record read_column(const RecordSource& source, const Table& table, const FirstLi
     if (std::isnan(dt) && !step.unknown.empty())
       refuse(source, step.line,
              "states its time step with " + shown(step.unknown) + ", which is no unit; write s, ms or Hz");
+    if (!step.has_unit) refuse_bare_step(source, step.line, step.seconds);
     if (std::isnan(dt)) dt = step.seconds;
     if (!(std::abs(step.seconds - dt) <= 1e-6 * dt))
       refuse(source, step.line,

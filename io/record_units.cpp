@@ -65,6 +65,7 @@ std::string plain(std::string_view text)
   replace("\xB2", "2");
   replace("\xB7", "*");
   replace("**", "^");
+  replace("'", "");
   return lower(out);
 }
 

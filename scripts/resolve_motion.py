@@ -40,7 +40,7 @@ def read(path):
         raise BadRecord(f"{path}: {error}") from error
     if not numpy.isfinite(values).all():
         raise BadRecord(f"{path}: value {int(numpy.argmin(numpy.isfinite(values))) + 1} is no finite number")
-    if values.size < int(count[1]):
+    if values.size < int(count[1]) or values[int(count[1]) :].any():
         raise BadRecord(f"{path}: the header tells of {count[1]} values, there are {values.size}")
     return lines[:k], values[: int(count[1])], float(step[1])
 

@@ -77,13 +77,24 @@ inline Sample peer_sample()
               body("%15.6E", 5)};
 }
 
+/// As Fortran's E15.7 prints it, without a leading zero: "  -.1480064E-03".
+inline std::string fortran(double value)
+{
+  const int power = value == 0 ? 0 : int(std::floor(std::log10(std::abs(value)) + 1e-9)) + 1;
+  std::string mantissa = print("%.7f", std::abs(value) / std::pow(10, power)).substr(1);
+  return print("%15s", ((value < 0 ? "-" : "") + mantissa + print("E%+03d", power)).c_str());
+}
+
 inline Sample at2_sample()
 {
+  std::string values;
+  for (int i = 0; i < sample_count; ++i)
+    values += fortran(sample_value(i) / 980.665) + (i % 5 == 4 ? "\n" : "");
   return {"peer",
           {.file = "r.AT2"},
           "PEER NGA STRONG MOTION DATABASE RECORD\nMade, 1/1/2001, Station 7, 90\n"
           "ACCELERATION TIME SERIES IN UNITS OF G\nNPTS=    400, DT=   .0100 SEC,            \n" +
-              body("%15.7E", 5, 1 / 980.665)};
+              values};
 }
 
 inline Sample column_sample()

@@ -107,7 +107,8 @@ TEST_CASE("a profile file is read in the unit of its heading", "[io]")
   }
   for (std::string heading :
        {"x (ft), y (ft)\n", "# x (ft), y (ft)\n", "x_ft, y_ft\n", "x (Feet) y (Feet)\n", "# units: ft\n",
-        "# survey of 2001\n# coordinates in feet\n", "# Distance (ft), Level (ft)\n"})
+        "# survey of 2001\n# coordinates in feet\n", "# Distance (ft), Level (ft)\n", "# ft\n", "x,y # ft\n",
+        "ft, ft\n", "x; y in ft\n", "x y (ft)\n", "x/ft, y/ft\n"})
   {
     INFO(heading);
     const Polyline line = ground_of(heading + rows);
@@ -116,7 +117,11 @@ TEST_CASE("a profile file is read in the unit of its heading", "[io]")
   }
   CHECK(ground_of("x (km), y (m)\n0 10\n0.05 10\r\n").x[1] == Approx(50));
   CHECK_THAT(ground_refusal("x (rods), y (m)\n" + rows), Contains("p.csv:1: states the unit 'rods'"));
-  CHECK_THAT(ground_refusal("# units: rods\n" + rows), Contains("p.csv:1: states the unit 'rods'"));
+  CHECK_THAT(ground_refusal("# units: rods\n" + rows), Contains("p.csv:1: states a unit that is not known"));
+  CHECK_THAT(ground_refusal("# levels in ft\nx (m), y (m)\n" + rows), Contains("p.csv:3: is below"));
+  CHECK_THAT(ground_refusal("# in m along x and ft in height\n" + rows),
+             Contains("names the unit ft beside m"));
+  CHECK_THAT(ground_refusal("# y, x\n" + rows), Contains("p.csv:1: has 'y' before 'x'"));
   CHECK_THAT(ground_refusal("x (m), depth (m)\n" + rows), Contains("p.csv:1: has depths"));
   CHECK_THAT(ground_refusal("y, x\n" + rows), Contains("p.csv:1: has 'y' before 'x'"));
 }

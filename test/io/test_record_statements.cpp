@@ -22,6 +22,13 @@ std::string peer(const std::string& line, const std::string& npts = "NPTS=  3, D
 
 constexpr double g = standard_gravity;
 
+/// A line of three components that change little from line to line.
+std::string print_three(int i)
+{
+  return std::to_string(std::sin(.2 * i)) + " " + std::to_string(3 * std::cos(.1 * i)) + " " +
+         std::to_string(-2 * std::sin(.15 * i));
+}
+
 struct Spelling
 {
   std::string text;
@@ -35,6 +42,7 @@ TEST_CASE("a unit that a header states is read in the spellings of archives", "[
                                             {"g", g},
                                             {"(g)", g},
                                             {"G.", g},
+                                            {"G's", g},
                                             {"G/10", g / 10},
                                             {"g/100", g / 100},
                                             {"MG", g / 1000},
@@ -75,7 +83,8 @@ TEST_CASE("a unit that a header states is read in the spellings of archives", "[
                                             {"nm/s**2", 1e-9}};
   for (const auto& [text, si] : accelerations)
     for (std::string head : {"ACCELERATION TIME HISTORY IN UNITS OF ", "Acceleration time series, units: ",
-                             "The units are ", "UNITS=", "Unit: ", "DATA UNITS IN "})
+                             "The units are ", "UNITS=", "Unit: ", "DATA UNITS IN ", "ACCELERATION, ",
+                             "UNITS OF ACCELERATION: ", "Acceleration in "})
     {
       INFO(head + text);
       const auto record = parse_record(peer(head + text), source_of());
@@ -109,6 +118,13 @@ TEST_CASE("a unit that is stated but not known is refused by name, never replace
     CHECK_THAT(refusal(peer("Units: " + unit), given), Contains("which is not known"));
   }
   for (std::string line :
+       {"DATA IN PERCENT G", "VALUES ARE IN 1000 CM/S/S", "UNIT MILLI G", "ACCELERATION, PERCENT G",
+        "ACCELERATION G x 10", "ACCELERATION TIME HISTORY 10**-1 G"})
+    CHECK_THAT(refusal(peer(line), source_of()), Contains("r.AT2:3: states the unit"));
+  for (std::string name : {"acc PERCENT G", "acceleration G / 7", "a (10 gal)"})
+    CHECK_THAT(refusal("time (s), " + name + "\n0, 1\n.01, 2\n", source_of("r.csv", NAN, "g")),
+               Contains("r.csv:1: states the unit"));
+  for (std::string line :
        {"ACCELERATION (G/7)", "ACCELERATION IN COUNTS", "ACCELERATION (COUNTS)", "Acceleration in G/7"})
     CHECK_THAT(refusal(peer(line), source_of()), Contains("r.AT2:3: states the unit"));
   CHECK_THAT(refusal("time (s), acc (furlongs)\n0, 1\n.01, 2\n", source_of("r.csv", NAN, "g")),
@@ -129,6 +145,17 @@ TEST_CASE("the line that states the unit is found, not the first with the word",
   CHECK(unit_of("ACCELERATION RECORDED IN BASEMENT\n") == "g");
   CHECK_THAT(refusal("ACCELERATION IN UNITS OF G\nUNITS: CM/S/S\n" + numbers, source_of()),
              Contains("r.AT2:2: states the unit cm/s2, and line 1 g"));
+  for (std::string line :
+       {"ACCELERATION, CM/S/S", "ACCELERATION: CM/S/S", "ACCELERATION TIME HISTORY CM/SEC2",
+        "acceleration - gal", "time units: s; acceleration units: cm/s2", "units: s, cm/s2",
+        "Units are sec and cm/s2"})
+  {
+    INFO(line);
+    CHECK(parse_record(line + "\n" + numbers, source_of()).values[0] == Approx(.01));
+  }
+  CHECK(unit_of("STATION 7, VS30 = 760 M/S, PGA 30 CM/S/S\n") == "g");
+  CHECK_THAT(refusal("MADE STATION, CM/S/S\n" + numbers, source_of()),
+             Contains("r.AT2:1: names cm/s2, and the unit is taken to be g"));
   CHECK_THAT(refusal("VELOCITY TIME HISTORY\n" + numbers, source_of()), Contains("the header says velocity"));
 }
 
@@ -159,8 +186,10 @@ TEST_CASE("DT is read with its unit", "[io]")
   }
   CHECK(parse_record(peer("UNITS OF G", "3 10.0 NPTS, DT (MSEC)"), source_of()).dt ==
         Approx(0.01).epsilon(1e-15));
-  for (std::string step : {"DT= 10 FORTNIGHTS", "DT= 10", "DT= 1/100 SEC", "DT (MIN) = 1", "DT= 0,01 SEC",
-                           "DT= -.01 SEC", "DT= 10 MSEC/3", "DT= .01.0 SEC"})
+  for (std::string numbers : {"3 10 NPTS, DT", "3 10.0 MSEC NPTS, DT", "3 10 NPTS, DT (MIN)"})
+    CHECK_THAT(refusal(peer("UNITS OF G", numbers), source_of()), Contains("r.AT2:4: "));
+  for (std::string step : {"DT= .01 HZ", "DT= 10 FORTNIGHTS", "DT= 10", "DT= 1/100 SEC", "DT (MIN) = 1",
+                           "DT= 0,01 SEC", "DT= -.01 SEC", "DT= 10 MSEC/3", "DT= .01.0 SEC"})
   {
     INFO(step);
     CHECK_THAT(refusal(peer("IN UNITS OF G", "NPTS= 3, " + step), source_of()), Contains("r.AT2:4: "));
@@ -187,6 +216,9 @@ TEST_CASE("columns in a PEER file are no running text", "[io]")
   };
   const auto value = [](int i) { return std::to_string((i * 7919 % 101 - 50) / 100.); };
   const auto three = body(20, [&](int i) { return value(i) + " " + value(i + 5) + " " + value(i + 9); });
+  const auto smooth = body(30, [](int i) { return print_three(i); });
+  CHECK(parse_record(std::string(smooth).replace(smooth.find("NPTS= 30"), 8, "NPTS= 90"), source_of())
+            .warnings.size() == 1);
   CHECK_THAT(refusal(three, source_of()), Contains("r.AT2:2: holds 20 lines of 3 numbers in columns"));
   const auto indexed = body(20, [&](int i) { return std::to_string(i + 1) + " " + value(i); });
   CHECK_THAT(refusal(indexed, source_of()), Contains("in columns"));
@@ -235,8 +267,9 @@ TEST_CASE("comments and headings of columns are read, and contradict no option",
   { return source_of("r.csv", dt, std::move(unit)); };
   for (std::string head :
        {"# Time (s), Acceleration (cm/s2)\n", "time (s), NS (cm/s/s)\n", "% units: gal\n", "t, a_gal\n",
-        "sec, gal\n", "# acceleration in cm/s/s\n", "time [s]; acc [cm/sec^2]\n", "Time (s)\tAcc (gal)\n",
-        "t (s) a (gal)\n", "# a record of 2001\n# UNITS OF CM/S/S\ntime, acc\n"})
+        "sec, gal\n", "# acceleration in cm/s/s\n", "time, a(t) (gal)\n", "time (s), acc (station 5) (gal)\n",
+        "time [s]; acc [cm/sec^2]\n", "Time (s)\tAcc (gal)\n", "t (s) a (gal)\n",
+        "# a record of 2001\n# UNITS OF CM/S/S\ntime, acc\n"})
   {
     INFO(head);
     check_values(parse_record(head + rows, csv()), {1, 2, -3}, .01);
@@ -250,6 +283,7 @@ TEST_CASE("comments and headings of columns are read, and contradict no option",
   CHECK_THAT(refusal("time (s), velocity (g)\n" + rows, csv()), Contains("do not go together"));
   CHECK(parse_record("# dt: 5 ms, units: gal\n1\n2\n", csv()).dt == 0.005);
   CHECK(parse_record("# Sampling rate (Hz): 200\n1\n2\n", csv("g")).dt == 0.005);
+  CHECK_THAT(refusal("# dt = 10\n1\n2\n", csv("g")), Contains("a time step of 10 without a unit"));
   CHECK_THAT(refusal("# dt: 5 ms\n1\n2\n", csv("g", 0.01)),
              Contains("r.csv:1: states a time step of 0.005 s"));
 }
@@ -265,6 +299,8 @@ TEST_CASE("the time column is read with its unit, and an index is no time", "[io
     CHECK(record.dt == Approx(0.01).epsilon(1e-15));
     check_values(record, {1, 2, -3}, g);
   }
+  CHECK_THAT(refusal("# minutes, acc (g)\n0,1\n0.01,2\n", csv),
+             Contains("r.csv:1: calls the first column 'minutes'"));
   CHECK_THAT(refusal("n, acc (g)\n0,1\n1,2\n2,3\n", csv), Contains("r.csv:1: calls the first column 'n'"));
   CHECK_THAT(refusal("0,1\n1,2\n2,3\n", csv), Contains("the first column counts 0, 1"));
   CHECK_THAT(refusal("0 1\n10 2\n20 3\n", csv), Contains("counts 0, 10"));
@@ -306,6 +342,9 @@ TEST_CASE("a first line of count and time step is read, a wrong one refused", "[
   check_values(parse_record("5 0.01\n" + timed, file()), {.5, .25, -.5, .125, .25}, g);
   CHECK_THAT(refusal("5 0.02\n" + timed, file()), Contains("the first line says a time step of 0.02"));
   CHECK_THAT(refusal("6 0.01\n" + timed, file()), Contains("r.txt:"));
+  CHECK_THAT(refusal("6.\n" + rows, file(.01)), Contains("looks like a count"));
+  CHECK_THAT(refusal("6 10\n" + rows, file()), Contains("a time step of 10 without a unit"));
+  CHECK_THAT(refusal("0.01\n" + rows, file(.01)), Contains("is the time step, not a value"));
   CHECK(parse_record("7\n3\n-2\n12\n", file(.01)).values.size() == 4); // whole numbers are values too
 }
 

@@ -59,6 +59,28 @@ def cut():
     return 1.0, 0.0
 
 
+def contradictions():
+    """Records in other units, with DT in ms or with more values than NPTS are refused, a plain one is read."""
+    head = "A\nB\nACCELERATION IN UNITS OF G\n"
+    refused = 0
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "r.AT2"
+        for text in ("NPTS= 3, DT= 10 MSEC\n1 2 3\n", "NPTS= 2, DT= .01 SEC\n1 2 3\n", "NPTS= 3, DT= .01 SEC\n1 nan 3\n"):
+            path.write_text(head + text)
+            try:
+                resolve_motion.read(path)
+            except resolve_motion.BadRecord:
+                refused += 1
+        other = Path(folder) / "n.AT2"
+        other.write_text(head.replace("UNITS OF G", "UNITS OF CM/S/S") + "NPTS= 3, DT= .01 SEC\n1 2 3\n")
+        path.write_text(head + "NPTS= 3, DT= .01 SEC\n1 2 3 0 0\n")
+        try:
+            resolve_motion.make(argparse.Namespace(east=path, north=other, azimuth=90.0, begin=0.0, end=None))
+        except resolve_motion.BadRecord:
+            refused += 1
+        return abs(resolve_motion.read(path)[2] - 0.01) + abs(refused - 4), 0.0
+
+
 def turned():
     """East and north of a motion along azimuth 215 give it back."""
     motion, azimuth = np.array([1.0, -2.0, 0.5]), 215.0
@@ -91,6 +113,7 @@ def checks():
     yield "the measures of a slide", measured()
     yield "a toe that does not get so far", never()
     yield "a record cut", cut()
+    yield "records that contradict themselves", contradictions()
     yield "east and north turned back", turned()
     yield "records that are not what they seem", refused()
 
