@@ -94,15 +94,16 @@ MohrCoulombSurface MohrCoulomb::surface(double softened) const
   const double friction = friction_peak + t * (friction_residual - friction_peak);
   const double cohesion = cohesion_peak + t * (cohesion_residual - cohesion_peak);
   const double sine = std::sin(friction), cosine = std::cos(friction);
+  const double flow = dilation > 0 ? std::min(std::sin(dilation), sine) : 0;
   const double apex = sine > 0 ? cohesion * cosine / sine : unlimited;
   // A friction angle that falls would raise the apex; what holds in tension is cohesion, which does not grow.
-  const double tension =
-      t > 0 && friction_peak > 0 ? std::min(apex, cohesion / std::tan(friction_peak)) : apex;
+  const bool raised = friction < friction_peak;
+  const double tension = raised ? std::min(apex, cohesion / std::tan(friction_peak)) : apex;
   return {shear_modulus(),
           bulk_modulus(),
           sine,
           2 * cohesion * cosine,
-          std::min(std::sin(dilation), sine),
+          flow,
           apex,
           std::min(tension, tension_cutoff)};
 }
@@ -199,20 +200,34 @@ MohrCoulombSurface::Returned MohrCoulomb::soften(const Triple& trial, const Trip
     for (int i = 0; i < 3; ++i) lost[i] -= less[i];
     return equivalent(lost);
   };
-  const auto after = [&](double step)
+  Surface::Returned end;
+  double tried = 0;
+  const auto flow_after = [&](double step)
   {
+    tried = step;
     const Surface surface = surface_after(at.strain + step);
-    const Surface::Returned to = surface.return_with_cracks(trial, at.opening);
-    return std::pair{to, flow(to, surface)};
+    end = surface.return_with_cracks(trial, at.opening);
+    return flow(end, surface);
   };
-  const auto [now, step] = after(0);
-  strain = step;
-  if (!softens() || at.strain >= softening_strain || step == 0) return now;
-  // The weaker the ground, the more it flows: the residual strength bounds the strain.
-  const double most = after(softening_strain).second;
-  const auto left = [&](double x) { return after(x).second - x; };
-  strain = find_root({0, step}, {most, left(most)}, 1e-15 * most, left);
-  return after(strain).first;
+  const double first = strain = flow_after(0), rest = softening_strain - at.strain;
+  if (!softens() || rest <= 0 || first == 0) return end;
+  // The weaker the ground, the more it flows: the residual strength bounds the strain, and the line between
+  // both is a guess. The strength is that of the strain found, so that an error of 1e-8 of it is in no
+  // stress.
+  const double most = flow_after(rest);
+  strain = most;
+  if (most >= rest) return end;
+  if (most <= first) // a cut-off that does not soften
+  {
+    flow_after(strain = first);
+    return end;
+  }
+  const double guess = first + (most - first) * most / rest - most;
+  const double rounding = 4e-16 * (std::fabs(trial[0]) + std::fabs(trial[2])) / shear_modulus();
+  strain = find_root({0, first}, {most, guess}, std::max(rounding, 1e-8 * first),
+                     [&](double step) { return flow_after(step) - step; });
+  if (tried != strain) flow_after(strain);
+  return end;
 }
 
 /// A point whose cracks have directions. The trial is the stress as if they were closed, so that what closes

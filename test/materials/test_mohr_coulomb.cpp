@@ -222,7 +222,8 @@ TEST_CASE("Mohr-Coulomb softens from peak to residual over its strain", "[materi
   CHECK(p.stress[3] == Approx(3e6 * std::sin(18.9 * degree)).epsilon(1e-9));
 }
 
-// In pure shear the direction of flow stays, so that steps of any size end at the same stress.
+// In pure shear the direction of flow stays, so that steps of any size end at the same stress, but for 1e-8
+// of the strain, over which the strength falls by about as much of itself.
 TEST_CASE("The strength of softening ground does not lag behind its steps", "[materials]")
 {
   const MohrCoulomb law = rock();
@@ -236,7 +237,7 @@ TEST_CASE("The strength of softening ground does not lag behind its steps", "[ma
       for (int k = 0; k < std::lround(strain / step); ++k) p = update(law, p, {0, 0, step});
       if (fine == 0) fine = p.stress[3];
       INFO(strain << " in steps of " << step);
-      CHECK(p.stress[3] == Approx(fine).epsilon(1e-9));
+      CHECK(p.stress[3] == Approx(fine).epsilon(3e-8));
     }
   }
 }
