@@ -3,6 +3,8 @@
 #include "materials/root.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
 
 namespace mpm
 {
@@ -105,7 +107,11 @@ MohrCoulombSurface::Returned MohrCoulombSurface::at_lower_edge(const Triple& s, 
 
 MohrCoulombSurface::Returned MohrCoulombSurface::return_map(const Triple& trial, double limit) const
 {
-  const Triple planes = excess(trial[0], trial[2]) > 0 ? return_to_planes(trial) : trial;
+  Triple planes = excess(trial[0], trial[2]) > 0 ? return_to_planes(trial) : trial;
+  // Where all edges meet, as without strength everywhere, round-off alone may be out of order.
+  const double rounding = 1e-14 * (std::fabs(trial[0]) + std::fabs(trial[2]));
+  if (planes[0] >= planes[1] - rounding && planes[1] >= planes[2] - rounding)
+    std::sort(planes.begin(), planes.end(), std::greater<>());
   if (in_order(planes) && planes[0] <= limit) return {planes};
   if (trial[0] > limit)
   {
