@@ -160,11 +160,7 @@ void warn_of_materials(Case& scene)
       scene.warnings.push_back(
           "materials." + material.name + ".poisson_ratio: " + number_text(material.elastic().poisson) +
           " is above 0.49: many more steps, and as much more numerical damping of shear waves");
-  for (const Material& material : scene.materials)
-    if (const std::string text =
-            std::visit([&](const auto& law) { return law.warning(scene.grid.spacing); }, material.law);
-        !text.empty())
-      scene.warnings.push_back("materials." + material.name + "." + text);
+  warn_of_laws(scene);
 }
 
 void warn_of_short_profiles(Case& scene)

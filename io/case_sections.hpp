@@ -20,4 +20,8 @@ OutputSettings read_output(Section& root, const std::vector<Material>& materials
 /// What only shows when the parts are put together: grid, gauges and regions that do not fit, with the place
 /// of the key at fault. Adds warnings to the case.
 void check_geometry(Case& scene, const YamlNode& tree, Problems& problems);
+
+/// Warns of what the laws say against their parameters, and of strength that falls faster than stress
+/// unloads.
+void warn_of_laws(Case& scene);
 } // namespace mpm

@@ -1,8 +1,10 @@
 #include "io/frames.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <array>
 #include <numeric>
 
@@ -27,10 +29,61 @@ void write_vertices(h5::Group& grid, std::size_t points)
   grid.write("Types", std::vector<std::uint8_t>(points, vtk_vertex), {}, "1", small);
 }
 
-std::vector<hsize_t> shape_of(const Frame::Field& field, std::size_t points)
+/// Places of the particles in the order of their ids.
+std::vector<std::size_t> order_of(const Frame& frame, std::size_t points)
 {
-  if (field.components == 1) return {points};
-  return {points, hsize_t(field.components)};
+  std::vector<std::size_t> order(points);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  if (frame.ids.size() == points)
+    std::sort(order.begin(), order.end(), [&](auto a, auto b) { return frame.ids[a] < frame.ids[b]; });
+  return order;
+}
+
+/// Rows of `width` values each, put in order. What has another size is left as it is, to be refused.
+template <class T>
+std::vector<T> ordered(const std::vector<T>& values, const std::vector<std::size_t>& order, std::size_t width)
+{
+  if (values.size() != order.size() * width) return values;
+  std::vector<T> result;
+  result.reserve(values.size());
+  for (const std::size_t k : order)
+    result.insert(result.end(), values.begin() + k * width, values.begin() + (k + 1) * width);
+  return result;
+}
+
+void write_field(h5::Group& data, const Frame::Field& field, const std::vector<std::size_t>& order)
+{
+  const std::size_t points = order.size(), width = field.components;
+  const std::vector<double> values = ordered(field.values, order, width);
+  std::vector<hsize_t> shape{points};
+  if (width > 1) shape.push_back(width);
+  data.write(field.name, values, shape, field.unit, small);
+  if (!field.description.empty()) data.attribute("description", field.description, field.name);
+  if (field.component_names.empty()) return;
+  data.attribute("components", fmt::format("{}", fmt::join(field.component_names, " ")), field.name);
+  for (std::size_t c = 0; c < width; ++c)
+  {
+    std::vector<double> one(points);
+    for (std::size_t k = 0; k < points; ++k) one[k] = values[k * width + c];
+    data.write(field.name + "_" + field.component_names[c], one, {points}, field.unit, small);
+  }
+}
+
+/// VTK has global ids as an attribute of the array (from 9.4 on) or of its group.
+void write_ids(h5::Group& data, const std::vector<std::int64_t>& ids)
+{
+  data.write("id", ids, {ids.size()}, "1", small);
+  data.attribute_ascii("Attribute", "GlobalIds", "id");
+  data.attribute_ascii("GlobalIds", "id");
+}
+
+void write_materials(h5::Group& grid, h5::Group& data, const std::vector<std::int64_t>& materials,
+                     const std::vector<std::string>& names)
+{
+  data.write("material", materials, {materials.size()}, "1", small);
+  if (names.empty()) return;
+  data.attribute("names", fmt::format("{}", fmt::join(names, " ")), "material");
+  grid.write_strings_for_vtk("FieldData/material_names", names);
 }
 
 /// VTK wants its own layout; a second name for the same data costs nothing.
@@ -39,6 +92,8 @@ void link_plain_names(h5::File& file)
   file.hard_link("VTKHDF/Points", "particles/position");
   for (const auto& name : file.children("VTKHDF/PointData"))
     file.hard_link("VTKHDF/PointData/" + name, "particles/" + name);
+  if (file.exists("VTKHDF/FieldData/material_names"))
+    file.hard_link("VTKHDF/FieldData/material_names", "material_names");
 }
 
 void fill(h5::File& file, const Frame& frame, const Provenance& provenance)
@@ -48,18 +103,19 @@ void fill(h5::File& file, const Frame& frame, const Provenance& provenance)
   file.attribute("step", frame.step);
 
   const std::size_t points = frame.points.size() / 3;
+  const std::vector<std::size_t> order = order_of(frame, points);
   h5::Group grid = file.create_group("VTKHDF");
   grid.attribute("Version", std::vector<std::int64_t>{1, 0});
   grid.attribute_ascii("Type", "UnstructuredGrid");
-  grid.write("Points", frame.points, {points, 3}, "m", small);
+  grid.write("Points", ordered(frame.points, order, 3), {points, 3}, "m", small);
   write_vertices(grid, points);
   grid.write("FieldData/TimeValue", std::array{frame.time}, {}, "s");
 
   h5::Group data = grid.create_group("PointData");
-  for (const auto& field : frame.fields)
-    data.write(field.name, field.values, shape_of(field, points), field.unit, small);
-  if (!frame.ids.empty()) data.write("id", frame.ids, {points}, "1", small);
-  if (!frame.materials.empty()) data.write("material", frame.materials, {points}, "1", small);
+  for (const auto& field : frame.fields) write_field(data, field, order);
+  if (!frame.ids.empty()) write_ids(data, ordered(frame.ids, order, 1));
+  if (!frame.materials.empty())
+    write_materials(grid, data, ordered(frame.materials, order, 1), frame.material_names);
   link_plain_names(file);
 }
 } // namespace

@@ -72,6 +72,8 @@ public:
              std::string_view units, WriteOptions = {});
   void write_text(const std::string& name, const std::string& text);
   void write_strings(const std::string& name, const std::vector<std::string>&);
+  /// The same bytes under the name of ASCII, as which alone VTK reads them.
+  void write_strings_for_vtk(const std::string& name, const std::vector<std::string>&);
 
   std::vector<hsize_t> shape(const std::string& name) const;
   std::vector<double> read_doubles(const std::string& name) const;
@@ -119,6 +121,7 @@ protected:
 
 private:
   struct Numbers;
+  void write_texts(const std::string& name, const std::vector<std::string>&, const Handle& type);
   void write_numbers(const std::string& name, const Numbers&, std::vector<hsize_t> dims,
                      std::string_view units, WriteOptions);
   void write_attribute(const std::string& name, std::int64_t, const std::string& of);

@@ -112,7 +112,18 @@ void Group::write_text(const std::string& name, const std::string& text)
 
 void Group::write_strings(const std::string& name, const std::vector<std::string>& texts)
 {
-  const Handle type = utf8_string();
+  write_texts(name, texts, utf8_string());
+}
+
+void Group::write_strings_for_vtk(const std::string& name, const std::vector<std::string>& texts)
+{
+  Handle type = utf8_string();
+  H5Tset_cset(type.id(), H5T_CSET_ASCII);
+  write_texts(name, texts, type);
+}
+
+void Group::write_texts(const std::string& name, const std::vector<std::string>& texts, const Handle& type)
+{
   const Handle space = simple_space({texts.size()});
   const Handle link = with_groups_on_the_way();
   const Handle data{written(H5Dcreate2(group_.id(), name.c_str(), type.id(), space.id(), link.id(),

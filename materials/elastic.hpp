@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string>
+#include <vector>
 
 namespace mpm
 {
@@ -35,9 +37,13 @@ struct Elastic
   /// `spacing` is the grid's, in m.
   std::string resolve(double /*spacing*/) { return {}; }
 
-  /// What a user should know of the parameters before a run, and what speaks against them (empty: nothing).
+  /// What a user should know of the parameters before a run (empty: nothing), and what speaks against them,
+  /// as `key: what`.
   std::string note() const { return {}; }
-  std::string warning(double /*spacing*/) const { return {}; }
+  std::vector<std::string> warnings(double /*spacing*/) const { return {}; }
+
+  /// Pressure in Pa above which the strength falls faster than the stress unloads, so that it drops at once.
+  double snap_back_pressure() const { return std::numeric_limits<double>::infinity(); }
 
   double shear_modulus() const { return young / (2 * (1 + poisson)); }
   double lame() const { return young * poisson / ((1 + poisson) * (1 - 2 * poisson)); }

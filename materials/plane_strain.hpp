@@ -6,7 +6,8 @@
 namespace mpm
 {
 /// A stretch of consecutive particles of one law: Cauchy stress (Pa, tension positive, updated in place), the
-/// strain increment of the step (engineering shear is 2 exy), and mass (kg/m) and volume after it (m3/m).
+/// strain increment of the step (engineering shear is 2 exy), mass (kg/m) and volume after it (m3/m), and
+/// cosine and sine of the step's rotation, which the stress has made already.
 struct StressBatch
 {
   int count;
@@ -19,6 +20,8 @@ struct StressBatch
   const double* __restrict exy;
   const double* __restrict mass;
   const double* __restrict volume;
+  const double* __restrict cosine;
+  const double* __restrict sine;
 };
 
 /// sigma += D : de in plane strain (ezz = 0), lame and shear modulus in Pa. Not inlined, so that every law

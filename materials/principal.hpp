@@ -39,4 +39,14 @@ inline std::array<double, 4> turn_back(const Principal& p)
   const double centre = 0.5 * (high + low), radius = 0.5 * (high - low);
   return {centre + radius * p.cosine, centre - radius * p.cosine, p.value[p.out_of_plane], radius * p.sine};
 }
+
+/// Normal components of a tensor (xx, yy, zz, xy) along the principal directions of another.
+inline std::array<double, 3> components_along(const Principal& p, double xx, double yy, double zz, double xy)
+{
+  const double centre = 0.5 * (xx + yy), turned = 0.5 * (xx - yy) * p.cosine + xy * p.sine;
+  const double high = centre + turned, low = centre - turned;
+  if (p.out_of_plane == 0) return {zz, high, low};
+  if (p.out_of_plane == 1) return {high, zz, low};
+  return {high, low, zz};
+}
 } // namespace mpm

@@ -15,11 +15,16 @@ constexpr double cells_wanted = 4;
 
 std::string SlipWeakening::resolve(double /*spacing*/)
 {
+  if (std::isnan(friction_residual) && !std::isnan(critical_slip))
+    return "critical_slip: has no residual friction to fall to; give friction.residual, or leave "
+           "critical_slip "
+           "away";
   if (std::isnan(friction_residual)) friction_residual = friction_peak;
   if (friction_residual > friction_peak)
     return "friction.residual: is above friction.peak; give at most the peak";
   if (weakens() && std::isnan(critical_slip))
     return "critical_slip: is missing; give the slip over which the friction falls to its residual";
+  idle_ = !weakens() && !std::isnan(critical_slip);
   if (match == plane && friction_peak >= 1)
     return "match: 'plane' takes the friction as sin(phi), which must be below 1; use mc or less friction";
   return {};
@@ -36,16 +41,35 @@ std::string SlipWeakening::note() const
   return text.data();
 }
 
-std::string SlipWeakening::warning(double spacing) const
+std::vector<std::string> SlipWeakening::warnings(double spacing) const
 {
-  if (thickness >= cells_wanted * spacing) return {};
+  std::vector<std::string> texts;
+  if (idle_)
+    texts.emplace_back("critical_slip: has no effect, since the residual friction is that of the peak");
+  if (thickness >= cells_wanted * spacing) return texts;
   std::array<char, 200> text;
   std::snprintf(
       text.data(), text.size(),
       "thickness: %.3g m is %.2g cells; across a zone of less than 4 cells its sides reach and hold each "
       "other: use a finer grid or a thicker zone",
       thickness, thickness / spacing);
-  return text.data();
+  texts.emplace_back(text.data());
+  return texts;
+}
+
+/// The friction falls fastest at first; with the match mc what it mobilises may do so later, when it is
+/// small, by d(mu / sqrt(1 + mu^2)) / d mu <= 1.
+double SlipWeakening::snap_back_pressure() const
+{
+  if (!weakens()) return std::numeric_limits<double>::infinity();
+  double steepest = 0;
+  constexpr int samples = 100;
+  for (int k = 0; k <= samples; ++k)
+  {
+    const double drop = (friction_peak - friction_residual) * k / samples, mu = friction_residual + drop;
+    steepest = std::max(steepest, decay() * drop * (match == plane ? 1 : std::pow(1 + mu * mu, -1.5)));
+  }
+  return std::sqrt(3.0) * shear_modulus() / steepest;
 }
 
 /// Solves f(x) = tau - sqrt(3) G x - p sin(phi)(strain + x) = 0 by Newton's method, from the residual

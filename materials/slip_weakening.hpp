@@ -54,7 +54,8 @@ struct SlipWeakening : Elastic
 
   std::string resolve(double spacing);
   std::string note() const;
-  std::string warning(double spacing) const;
+  std::vector<std::string> warnings(double spacing) const;
+  double snap_back_pressure() const;
 
   /// Friction coefficient after a plastic strain, eqs. (7) and (8).
   double friction(double plastic_strain) const
@@ -77,6 +78,8 @@ struct SlipWeakening : Elastic
   double dissipated(const double* const* state, int k) const { return state[2][k]; }
 
 private:
+  bool idle_ = false; ///< a critical slip is given, and the friction does not fall
+
   bool weakens() const { return friction_residual < friction_peak; }
   /// -d ln(mu - mu_r) / d eps_s
   double decay() const { return -std::log(0.05) * std::sqrt(3.0) * thickness / critical_slip; }

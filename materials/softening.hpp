@@ -18,6 +18,43 @@ struct LinearSoftening
   double band_cells = NAN;             ///< the width in grid spacings, instead of band_width
   double softening_strain = NAN;       ///< plastic strain at which the residual strength is reached
 
+  /// Refuses what would not be used, as `key: what` (empty: nothing). `residual`: whether a residual strength
+  /// is given, `residual_key` its key.
+  std::string refuse_unused(bool residual, const std::string& residual_key)
+  {
+    if (resolved_) return {};
+    const bool by_displacement = !std::isnan(softening_displacement),
+               by_strain = !std::isnan(softening_strain);
+    const bool banded = !std::isnan(band_width) || !std::isnan(band_cells);
+    const std::string band = std::isnan(band_width) ? "softening.band_cells" : "softening.band_width";
+    if ((by_displacement || by_strain || banded) && !residual)
+      return "softening: has no residual strength to soften to; give " + residual_key +
+             ", or leave softening away";
+    if (by_strain && banded)
+      return band +
+             ": turns a displacement into a strain, and 'softening.strain' is one already; leave one of "
+             "them away, or give 'softening.displacement'";
+    if (banded && !by_displacement)
+      return band + ": turns a displacement into a strain; give 'softening.displacement' with it";
+    if (by_displacement && by_strain)
+      return "softening: give either 'displacement' (a length) or 'strain', not both";
+    return {};
+  }
+
+  /// For a law whose residual strength is its peak.
+  void resolve_no_softening()
+  {
+    idle_ = idle_ || (!resolved_ && !(std::isnan(softening_displacement) && std::isnan(softening_strain)));
+    softening_strain = 1; // never used
+    resolved_ = true;
+  }
+
+  /// Says that softening is given and has no effect (empty: it has).
+  std::string idle_warning() const
+  {
+    return idle_ ? "softening: has no effect, since the residual strength is that of the peak" : "";
+  }
+
   /// Fixes the softening strain. `least`: strain at which the strength falls as fast as the stress unloads;
   /// softening has to be slower. Returns what is wrong, as `key: what` (empty: nothing).
   std::string resolve_softening(double spacing, double least)
@@ -34,15 +71,16 @@ struct LinearSoftening
       const double cells = std::isnan(band_cells) ? usual_band_cells : band_cells;
       softening_strain =
           softening_displacement / (std::sqrt(3.0) * (std::isnan(band_width) ? cells * spacing : band_width));
-      resolved_ = true;
     }
+    resolved_ = true;
     if (softening_strain > least) return {};
     return "softening: is so steep that the stress would snap back (residual strain " +
            std::to_string(softening_strain) + " <= " + std::to_string(least) +
-           ", the elastic strain of the strength lost); use a longer displacement or a smaller band width";
+           ", the elastic strain of the strength lost); use a longer displacement, a smaller band width "
+           "or a larger strain";
   }
 
 private:
-  bool resolved_ = false;
+  bool resolved_ = false, idle_ = false;
 };
 } // namespace mpm

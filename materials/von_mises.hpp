@@ -39,14 +39,21 @@ struct VonMises : Elastic, LinearSoftening
 
   std::string resolve(double spacing)
   {
+    if (const std::string unused = refuse_unused(!std::isnan(residual), "strength.residual"); !unused.empty())
+      return unused;
     if (std::isnan(residual)) residual = peak;
     if (residual > peak) return "strength.residual: is above strength.peak; give at most the peak";
     if (residual == peak)
     {
-      softening_strain = 1; // never used: the slope is zero
+      resolve_no_softening();
       return {};
     }
     return resolve_softening(spacing, (peak - residual) / (3 * shear_modulus()));
+  }
+
+  std::vector<std::string> warnings(double /*spacing*/) const
+  {
+    return idle_warning().empty() ? std::vector<std::string>{} : std::vector{idle_warning()};
   }
 
   /// Small-step radial return, exact for linear softening; state[0] is the plastic strain.

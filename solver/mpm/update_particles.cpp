@@ -60,8 +60,9 @@ void update_particles(Domain& domain, int material, int begin, int count, const 
   deform(p, begin, count, gradients, dt, e);
   rotate_stress(p, begin, count, e);
   const StressBatch stress{
-      count,       &p.stress_xx[begin], &p.stress_yy[begin], &p.stress_zz[begin], &p.stress_xy[begin],
-      e.xx.data(), e.yy.data(),         e.xy.data(),         &p.mass[begin],      &p.volume[begin]};
+      count,           &p.stress_xx[begin], &p.stress_yy[begin], &p.stress_zz[begin], &p.stress_xy[begin],
+      e.xx.data(),     e.yy.data(),         e.xy.data(),         &p.mass[begin],      &p.volume[begin],
+      e.cosine.data(), e.sine.data()};
   Material& m = domain.materials[material];
   std::array<double*, most_state_fields> state{};
   for (std::size_t k = 0; k < m.state.size(); ++k)

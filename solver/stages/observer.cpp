@@ -44,6 +44,7 @@ Frame::Field frame_field(const Domain& domain, const std::string& name)
     Frame::Field result{name, std::string(field.unit), field.components, {}};
     for (int k = 0; k < count; ++k)
       for (int c = 0; c < field.components; ++c) result.values.push_back((p.*field.data[c])[k]);
+    if (name == "stress") result.component_names = {"xx", "yy", "zz", "xy"};
     return result;
   }
   Frame::Field result{name, "1", 1, std::vector<double>(count, 0.0)};
@@ -59,6 +60,21 @@ Frame::Field frame_field(const Domain& domain, const std::string& name)
     }
   }
   return result;
+}
+/// Mean pressure and Mises stress out of the stresses of a frame.
+std::vector<Frame::Field> invariants_of(const Frame::Field& stress)
+{
+  Frame::Field p{"p", "Pa", 1,
+                 {},  {},   "mean pressure -(xx + yy + zz) / 3 of the stress: compression is positive"};
+  Frame::Field q{"q", "Pa", 1, {}, {}, "Mises stress sqrt(3 J2)"};
+  for (std::size_t k = 0; k < stress.values.size(); k += 4)
+  {
+    const double* s = &stress.values[k];
+    const Deviator deviator(s[0], s[1], s[2], s[3]);
+    p.values.push_back(-deviator.mean);
+    q.values.push_back(deviator.mises());
+  }
+  return {p, q};
 }
 } // namespace
 
@@ -224,12 +240,16 @@ void Observer::write_frame(const Clock& clock)
   std::vector<std::string> fields = session_.scene.output.frames.fields;
   if (std::find(fields.begin(), fields.end(), "volume") == fields.end()) fields.push_back("volume");
   for (const std::string& name : fields) frame.fields.push_back(frame_field(main, name));
+  if (const auto stress = std::find(fields.begin(), fields.end(), "stress"); stress != fields.end())
+    for (Frame::Field& field : invariants_of(frame.fields[stress - fields.begin()]))
+      frame.fields.push_back(std::move(field));
   frame.ids = main.particles.id;
   frame.materials.resize(main.particles.size());
   for (std::size_t m = 0; m < main.materials.size(); ++m)
     std::fill(frame.materials.begin() + main.material_begin[m],
               frame.materials.begin() + main.material_begin[m + 1],
               main.materials[m].origin < 0 ? m : main.materials[m].origin);
+  for (const Material& material : session_.scene.materials) frame.material_names.push_back(material.name);
   const std::string name = frame_name(static_cast<std::int64_t>(frames_.size()));
   const std::string digest = mpm::write_frame(*session_.folder / name, frame, session_.provenance());
   frames_.push_back({name, clock.time(), digest});

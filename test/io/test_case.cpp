@@ -238,7 +238,8 @@ TEST_CASE("Mohr-Coulomb and slip weakening are read from their tables", "[io]")
   REQUIRE(scene.warnings.size() == 1);
   CHECK_THAT(scene.warnings[0], Contains("materials.zone.thickness: 4 m is 2 cells"));
   CHECK(scene.output.frames.fields == std::vector<std::string>{"displacement", "velocity", "stress",
-                                                               "plastic_strain", "opening", "dissipation"});
+                                                               "plastic_strain", "opening", "dissipation",
+                                                               "opening_xx", "opening_yy", "opening_xy"});
   CHECK(std::get<SlipWeakening>(load(replaced(landslide, "    match: plane\n", "")).materials[1].law).match ==
         SlipWeakening::mc);
 }

@@ -70,6 +70,41 @@ TEST_CASE("Parameters that contradict each other are refused at their own line",
                  Contains("did you mean 'residual'?"));
 }
 
+TEST_CASE("Softening that a law would not use is refused at its own line", "[io]")
+{
+  const std::string clay =
+      replaced(small, "model: elastic", "model: von_mises\n    strength: {peak: 70 kPa}");
+  CHECK_NOTHROW(load(clay));
+  const auto with = [&](const std::string& more) { return replaced(clay, "{peak: 70 kPa}", more); };
+  CHECK_THAT(refusal(with("{peak: 70 kPa}\n    softening: {displacement: 0.2 m}")),
+             Contains("65\ncase.yaml:12:16: materials.soil.softening: has no residual strength to soften to; "
+                      "give strength.residual"));
+  CHECK_THAT(refusal(with("{peak: 70 kPa, residual: 9 kPa}\n    softening: {strain: 0.2, band_width: 2 m}")),
+             Contains("65\ncase.yaml:12:42: materials.soil.softening.band_width: turns a displacement"));
+  CHECK_THAT(refusal(with("{peak: 70 kPa, residual: 9 kPa}\n    softening: {strain: 0.2, band_cells: 2}")),
+             Contains("materials.soil.softening.band_cells: turns a displacement"));
+  const Case equal = load(with("{peak: 70 kPa, residual: 70 kPa}\n    softening: {displacement: 0.2 m}"));
+  REQUIRE(equal.warnings.size() == 1);
+  CHECK_THAT(equal.warnings[0], Contains("materials.soil.softening: has no effect"));
+}
+
+TEST_CASE("Friction that snaps back under the ground's own weight is warned of", "[io]")
+{
+  // 10 m of soil: 10 m x 18 kN/m3 x (1 + nu / (1 - nu)) / 2.
+  const auto sand = [](const std::string& strain)
+  {
+    return replaced(small, "model: elastic",
+                    "model: mohr_coulomb\n    friction_angle: {peak: 35 deg, residual: 5 deg}\n"
+                    "    cohesion: {peak: 0 kPa}\n    softening: {strain: " +
+                        strain + "}");
+  };
+  CHECK(load(sand("0.1")).warnings.empty());
+  const Case steep = load(sand("1e-3"));
+  REQUIRE(steep.warnings.size() == 1);
+  CHECK_THAT(steep.warnings[0], Contains("materials.soil: weakens so fast that its stress snaps back"));
+  CHECK_THAT(refusal(sand("1e-5")), Contains("materials.soil.softening: is so steep"));
+}
+
 TEST_CASE("Overrides win, are recorded and are checked under their own name", "[io]")
 {
   const Case scene = load(small, {"grid.spacing=0.5 m", "domain.x[1]=50 m", "regions.0.material=soil",

@@ -56,6 +56,47 @@ TEST_CASE("a frame gives its fields under plain names with units", "[io]")
   CHECK(particles.read_ints("id") == frame.ids);
 }
 
+TEST_CASE("a frame is in the order of its ids, which are its points' global ids", "[io]")
+{
+  const TemporaryFolder folder;
+  Frame frame = three_particles();
+  frame.ids = {42, 7, 9};
+  frame.materials = {2, 0, 1};
+  write_frame(folder / "a.hdf", frame, {});
+  const h5::File file = open_complete(folder / "a.hdf");
+  const h5::Group particles = file.open_group("particles");
+  CHECK(particles.read_ints("id") == std::vector<std::int64_t>{7, 9, 42});
+  CHECK(particles.read_ints("material") == std::vector<std::int64_t>{0, 1, 2});
+  CHECK(particles.read_doubles("position") == std::vector<double>{1.5, 0, 0, 3, 0.25, 0, 0, 0, 0});
+  CHECK(particles.read_doubles("velocity") == std::vector<double>{3, 4, 5, 6, 1, 2});
+  CHECK(particles.read_doubles("plastic_strain") == std::vector<double>{0.5, 1, 0});
+  const h5::Group data = file.open_group("VTKHDF/PointData");
+  CHECK(data.attribute_string("Attribute", "id") == "GlobalIds");
+  CHECK(data.attribute_string("GlobalIds") == "id");
+}
+
+TEST_CASE("a frame names materials and components", "[io]")
+{
+  const TemporaryFolder folder;
+  Frame frame = three_particles();
+  frame.material_names = {"clay", "Löss"};
+  frame.fields.push_back(
+      {"stress", "Pa", 4, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}, {"xx", "yy", "zz", "xy"}});
+  frame.fields.push_back({"p", "Pa", 1, {1, 2, 3}, {}, "compression is positive"});
+  write_frame(folder / "a.hdf", frame, {});
+  const h5::File file = open_complete(folder / "a.hdf");
+  CHECK(file.read_strings("material_names") == frame.material_names);
+  CHECK(file.read_strings("VTKHDF/FieldData/material_names") == frame.material_names);
+  const h5::Group particles = file.open_group("particles");
+  CHECK(particles.attribute_string("names", "material") == "clay Löss");
+  CHECK(particles.read_doubles("stress") == frame.fields[2].values);
+  CHECK(particles.attribute_string("components", "stress") == "xx yy zz xy");
+  CHECK(particles.read_doubles("stress_yy") == std::vector<double>{2, 6, 10});
+  CHECK(particles.read_doubles("stress_xy") == std::vector<double>{4, 8, 12});
+  CHECK(particles.attribute_string("units", "stress_xy") == "Pa");
+  CHECK(particles.attribute_string("description", "p") == "compression is positive");
+}
+
 TEST_CASE("a field that does not fit its particles is refused", "[io]")
 {
   const TemporaryFolder folder;

@@ -20,7 +20,7 @@ struct Increment
 struct Point
 {
   std::array<double, 4> stress{};
-  std::array<double, 3> state{}; ///< plastic strain, opening, dissipation in J/m3
+  std::array<double, 6> state{}; ///< plastic strain, opening, dissipation in J/m3, tensor of the opening
   double ratio = 1;
 
   double strain() const { return state[0]; }
@@ -39,15 +39,16 @@ struct Point
   }
 };
 
-/// One step. The volume follows the logarithm of the strain.
+/// One step, of which the stress has made the rotation. The volume follows the logarithm of the strain.
 template <class L>
-Point update(const L& law, Point p, const Increment& e, bool plastic = true)
+Point update(const L& law, Point p, const Increment& e, bool plastic = true, double cosine = 1,
+             double sine = 0)
 {
-  double* state[] = {&p.state[0], &p.state[1], &p.state[2]};
+  double* state[] = {&p.state[0], &p.state[1], &p.state[2], &p.state[3], &p.state[4], &p.state[5]};
   p.ratio *= std::exp(e.xx + e.yy);
   const double mass = law.density;
-  const StressBatch batch{1,     &p.stress[0], &p.stress[1], &p.stress[2], &p.stress[3],
-                          &e.xx, &e.yy,        &e.xy,        &mass,        &p.ratio};
+  const StressBatch batch{1,     &p.stress[0], &p.stress[1], &p.stress[2], &p.stress[3], &e.xx,
+                          &e.yy, &e.xy,        &mass,        &p.ratio,     &cosine,      &sine};
   law.update(batch, state, plastic);
   return p;
 }

@@ -165,11 +165,43 @@ TEST_CASE("Slip-weakening parameters that do not go together are refused, thin z
   law = zone();
   law.critical_slip = NAN;
   CHECK_THAT(law.resolve(1), Catch::StartsWith("critical_slip: is missing"));
+  SlipWeakening steady = zone();
+  steady.friction_residual = NAN;
+  CHECK_THAT(steady.resolve(1), Catch::StartsWith("critical_slip: has no residual friction"));
+  steady.friction_residual = steady.friction_peak;
+  CHECK(steady.resolve(1).empty());
+  REQUIRE(steady.warnings(1).size() == 1);
+  CHECK_THAT(steady.warnings(1)[0], Catch::StartsWith("critical_slip: has no effect"));
   law = zone(SlipWeakening::plane);
   law.friction_peak = 1.2;
   CHECK_THAT(law.resolve(1), Catch::StartsWith("match: 'plane'"));
-  CHECK(zone().warning(1).empty());
-  CHECK_THAT(zone().warning(2), Catch::StartsWith("thickness: 4 m is 2 cells"));
+  CHECK(zone().warnings(1).empty());
+  REQUIRE(zone().warnings(2).size() == 1);
+  CHECK_THAT(zone().warnings(2)[0], Catch::StartsWith("thickness: 4 m is 2 cells"));
   CHECK_THAT(zone().note(), Catch::Contains("tau / sigma_n = 0.489") && Catch::Contains("0.0698"));
   CHECK_THAT(zone(SlipWeakening::plane).note(), Catch::Contains("tau / sigma_n = 0.560"));
+}
+
+TEST_CASE("Slip weakening tells the pressure above which its friction snaps back", "[materials]")
+{
+  for (const auto match : {SlipWeakening::mc, SlipWeakening::plane})
+  {
+    const SlipWeakening law = zone(match, 400);
+    const auto widest = [&](double pressure)
+    {
+      Point p = under_pressure(pressure);
+      double step = 0;
+      for (int k = 0; k < 4000; ++k)
+      {
+        const double before = p.strain();
+        p = update(law, p, {0, 0, 1e-6});
+        step = std::max(step, p.strain() - before);
+      }
+      REQUIRE(p.strain() > 0);
+      return step;
+    };
+    const double limit = law.snap_back_pressure(), whole = 1.7 / (std::sqrt(3.0) * 400);
+    CHECK(widest(0.8 * limit) < 0.02 * whole);
+    CHECK(widest(1.5 * limit) > 0.2 * whole);
+  }
 }

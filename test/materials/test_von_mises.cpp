@@ -270,3 +270,31 @@ TEST_CASE("Strengths that make no sense are refused", "[materials]")
   both.softening_displacement = 0.1;
   CHECK_THAT(both.resolve(1), Catch::StartsWith("softening: give either"));
 }
+
+TEST_CASE("Softening that would not be used is refused, and told of where it has no effect", "[materials]")
+{
+  const auto clay = []
+  {
+    VonMises law;
+    law.density = 2000, law.young = 25e6, law.poisson = 0.3, law.peak = 70e3;
+    return law;
+  };
+  VonMises alone = clay();
+  alone.softening_strain = 0.05;
+  CHECK_THAT(alone.resolve(1), Catch::StartsWith("softening: has no residual strength"));
+  VonMises band = clay();
+  band.band_cells = 2;
+  CHECK_THAT(band.resolve(1), Catch::StartsWith("softening: has no residual strength"));
+  VonMises beside = clay();
+  beside.residual = 39e3, beside.softening_strain = 0.05, beside.band_width = 1;
+  CHECK_THAT(beside.resolve(1), Catch::StartsWith("softening.band_width: turns a displacement"));
+  VonMises equal = clay();
+  equal.residual = 70e3, equal.softening_strain = 0.05;
+  REQUIRE(equal.resolve(1).empty());
+  REQUIRE(equal.warnings(1).size() == 1);
+  CHECK_THAT(equal.warnings(1)[0], Catch::StartsWith("softening: has no effect"));
+  VonMises perfect = clay();
+  REQUIRE(perfect.resolve(1).empty());
+  REQUIRE(perfect.resolve(1).empty());
+  CHECK(perfect.warnings(1).empty());
+}

@@ -54,6 +54,34 @@ TEST_CASE("Ground that is whole, or torn less than that, keeps its volume", "[mp
   CHECK(whole.particles.volume[3] == 100);
 }
 
+TEST_CASE("A crack turns with the particle, and spreads no further than it", "[mpm]")
+{
+  MohrCoulomb law = scenes::mohr_coulomb(30, 10e3);
+  law.tension_cutoff = 0;
+  Domain domain = scenes::make_domain({{law, {2, 20, 0.5, 0.5}, 0.5}}, 1);
+  Particles& p = domain.particles;
+  Material& ground = domain.materials[0];
+  const auto set = [&](const char* field, double value) { (*ground.field(field))[0] = value; };
+  const auto get = [&](const char* field) { return (*ground.field(field))[0]; };
+  set("opening", 0.5);
+  set("opening_xx", 0.5); // a crack along y
+  const double spin = 2, dt = 1e-3;
+  p.affine_xy[0] = -spin, p.affine_yx[0] = spin;
+  scenes::run(domain, 500, dt);
+  const double angle = 500 * 2 * std::atan(0.5 * dt * spin), c = std::cos(angle), s = std::sin(angle);
+  // A step along the tangent swells what turns by half the square of its angle, in either direction.
+  const double swollen = 500 * 0.5 * (dt * spin) * (dt * spin);
+  CHECK(get("opening") == Approx(0.5 + 2 * swollen).epsilon(1e-5));
+  CHECK(get("opening_xx") == Approx(0.5 * c * c + swollen).epsilon(1e-5));
+  CHECK(get("opening_yy") == Approx(0.5 * s * s + swollen).epsilon(1e-5));
+  CHECK(get("opening_xy") == Approx(0.5 * s * c).epsilon(1e-5));
+  const double before = get("opening"), share = get("opening_xy") / before;
+  p.volume[0] = 16 * std::exp(0.2);
+  limit_openings(domain);
+  CHECK(get("opening") == Approx(before - 0.2).epsilon(1e-12));
+  CHECK(get("opening_xy") == Approx(share * get("opening")).epsilon(1e-12));
+}
+
 TEST_CASE("A gauge beside a particle that flies alone flies too", "[mpm]")
 {
   Domain domain = lone_particle();
