@@ -10,6 +10,7 @@
 #include "solver/stages/departures.hpp"
 #include "solver/stages/energy_watch.hpp"
 #include "solver/stages/fidelity.hpp"
+#include "solver/stages/filling_report.hpp"
 #include "solver/stages/flip_blend.hpp"
 #include "solver/stages/motion.hpp"
 #include "solver/stages/observer.hpp"
@@ -287,6 +288,7 @@ int run_seismic(Session& session)
   // 1. The motion and the scene.
   const Motion motion = load_motion(session);
   Model model = make_model(scene);
+  report_filling(session.log, scene, model.filling);
   Clock clock;
   clock.dt = choose_step(scene, *model.main);
   if (options.check)

@@ -5,6 +5,7 @@
 //   mpm-static cases/slope/case.yaml --check               says what it would cost
 
 #include "solver/stages/fidelity.hpp"
+#include "solver/stages/filling_report.hpp"
 #include "solver/stages/predict.hpp"
 #include "solver/stages/relaxation.hpp"
 
@@ -21,6 +22,7 @@ int run_static(Session& session)
                                           "find; run mpm-seismic without --from");
   // 1. The undeformed scene between kinematic walls.
   Model model = make_model(scene);
+  report_filling(session.log, scene, model.filling);
   add_static_boundaries(model, scene);
   const double shaking_step = scene.safety * scene.grid.spacing / greatest_wave_speed(*model.main);
   Clock clock;
