@@ -237,6 +237,8 @@ double Case::longest_period() const
 
 void check_geometry(Case& scene, const YamlNode& tree, Problems& problems)
 {
+  check_size(scene, tree, problems);
+  if (problems.count() > 0) return;
   check_width(scene, tree, problems);
   check_regions(scene, tree, problems);
   if (problems.count() > 0) return;
@@ -245,5 +247,6 @@ void check_geometry(Case& scene, const YamlNode& tree, Problems& problems)
   warn_of_slopes_at_sides(scene);
   warn_of_materials(scene);
   warn_of_short_profiles(scene);
+  check_magnitudes(scene, tree, problems);
 }
 } // namespace mpm

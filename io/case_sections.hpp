@@ -16,4 +16,12 @@ OutputSettings read_output(Section& root, const std::vector<Material>& materials
 /// What only shows when the parts are put together: grid, gauges and regions that do not fit, with the place
 /// of the key at fault. Adds warnings to the case.
 void check_geometry(Case& scene, const YamlNode& tree, Problems& problems);
+
+/// Refuses a case that this machine cannot hold, or whose cells or coordinates numbers cannot tell apart; to
+/// be called before anything goes through the columns. Warns of one that it hardly holds.
+void check_size(Case& scene, const YamlNode& tree, Problems& problems);
+
+/// Warns of values that no ground has and of ground that yields at rest; refuses what cannot be computed
+/// with.
+void check_magnitudes(Case& scene, const YamlNode& tree, Problems& problems);
 } // namespace mpm

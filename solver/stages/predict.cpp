@@ -1,5 +1,7 @@
 #include "solver/stages/predict.hpp"
 
+#include "io/case_size.hpp"
+#include "io/memory.hpp"
 #include "solver/mpm/parallel.hpp"
 
 namespace mpm
@@ -7,8 +9,19 @@ namespace mpm
 namespace
 {
 constexpr int probe_steps = 50;
-constexpr double bytes_per_particle = 160; // 19 doubles and ids
-constexpr double bytes_per_node = 72;
+
+void report_memory(Session& session, const Model& model)
+{
+  CaseSize size = expected_size(session.scene);
+  size.particles = model.main->particles.size();
+  size.nodes = model.main->grid.nodes();
+  const double needed = memory_needed(size, session.scene);
+  const FreeMemory free = free_memory();
+  session.log.info("{} particles, about {} of memory and {} a checkpoint; {} {}",
+                   model.main->particles.size(), bytes_text(needed),
+                   bytes_text(checkpoint_bytes(size.particles, session.scene)), free.limit,
+                   bytes_text(free.bytes));
+}
 } // namespace
 
 int predict(Session& session, Model& model, const Clock& clock, double duration)
@@ -19,12 +32,7 @@ int predict(Session& session, Model& model, const Clock& clock, double duration)
   for (int k = 1; k <= probe_steps; ++k) advance(model, k * clock.dt, clock.dt);
   const double per_step = std::chrono::duration<double>(Wall::now() - start).count() / probe_steps;
   const double steps = duration / clock.dt;
-  const int particles = model.main->particles.size();
-  const double state = 1e-6 * bytes_per_particle * particles;
-  // A checkpoint is put together in memory before it is written.
-  const double memory = 2 * state + 1e-6 * bytes_per_node * model.main->grid.nodes();
-  session.log.info("{} particles, about {:.0f} MB of memory and {:.0f} MB a checkpoint", particles, memory,
-                   state);
+  report_memory(session, model);
   session.log.info("dt {:.3e} s: {:.0f} steps for {} s, about {} on {} threads", clock.dt, steps, duration,
                    duration_text(per_step * steps), parallel::threads());
   return exit_code::done;
