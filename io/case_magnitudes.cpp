@@ -114,7 +114,7 @@ void warn_of_settings(Case& scene)
                                          "which ground yields that would stand; is it in s?",
                                          scene.statics.ramp, period));
   if (const double t = scene.seismic.duration; t != 0)
-    warn_outside(scene, "seismic.duration", t, 0.5, 3600, "s", "is it in s, min or h?");
+    warn_outside(scene, "seismic.duration", t, 0.1, 3600, "s", "is it in s, min or h?");
   if (scene.seismic.duration == 0) return;
   const double frames = scene.seismic.duration / scene.output.frames.every;
   if (frames > 10000)

@@ -66,7 +66,7 @@ std::string larger_cells(const Case& scene, double needed, double bytes)
 {
   const double h = scene.grid.spacing * std::sqrt(needed / std::max(bytes, 1.0)) * 1.1;
   const double unit = std::pow(10, std::floor(std::log10(h)) - 1), rounded = std::ceil(h / unit) * unit;
-  return 10 * rounded > scene.domain.width() ? "" : fmt::format(" ({:.2g} m would do)", rounded);
+  return !(10 * rounded <= scene.domain.width()) ? "" : fmt::format(" ({:.2g} m would do)", rounded);
 }
 
 /// What is wrong with the size of a case; empty: nothing.

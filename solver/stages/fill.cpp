@@ -69,7 +69,12 @@ void note(const Stretch& s, bool filled, double left, double right, std::vector<
     }
     region.area += (right - left) * (part.top - part.bottom);
     region.filled.add(left, right);
-    region.thickness += ((s.top - s.bottom) - region.thickness) * (right - left) / region.filled.length;
+    // Across a layer that dips: its height times the cosine of the dip since the column before.
+    const double width = right - left, middle = 0.5 * (s.bottom + s.top);
+    const double rise = std::isnan(region.middle) ? 0 : middle - region.middle;
+    const double thickness = (s.top - s.bottom) * width / std::hypot(width, rise);
+    region.thickness += (thickness - region.thickness) * width / region.filled.length;
+    region.middle = middle;
   }
 }
 

@@ -31,7 +31,8 @@ struct Span
 struct RegionFilling
 {
   double area = 0;      ///< of its particles, m2
-  double thickness = 0; ///< mean of the layer of its material there, other regions' included, m
+  double thickness = 0; ///< mean, across the layer of its material, other regions' included, m
+  double middle = NAN;  ///< height of that layer's middle in the last column, m
   Span filled, lost;    ///< columns that it has particles in; those where it is too thin for one
 };
 
