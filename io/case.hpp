@@ -52,6 +52,7 @@ struct Region
   int below = -1;           ///< place in Case::surfaces
   double left = -std::numeric_limits<double>::infinity(); ///< m, to the nearest particle column
   double right = std::numeric_limits<double>::infinity(); ///< m, likewise
+  std::string place = {};                                 ///< in the case file, for messages
 };
 
 /// A stretch of a vertical line that one region has, in m.

@@ -233,6 +233,8 @@ double Case::longest_period() const
 
 void check_geometry(Case& scene, const YamlNode& tree, Problems& problems)
 {
+  check_size(scene, tree, problems);
+  if (problems.count() > 0) return;
   check_width(scene, tree, problems);
   check_extents(scene, tree, problems);
   check_regions(scene, tree, problems);
@@ -242,5 +244,6 @@ void check_geometry(Case& scene, const YamlNode& tree, Problems& problems)
   warn_of_slopes_at_sides(scene);
   warn_of_materials(scene);
   warn_of_short_profiles(scene);
+  check_magnitudes(scene, tree, problems);
 }
 } // namespace mpm

@@ -116,6 +116,7 @@ Region read_region(const YamlNode& node, const std::vector<std::string>& surface
                    const std::vector<std::string>& materials, Problems& problems)
 {
   Region region;
+  region.place = node.place.text() + ": " + node.path;
   Section section(&node, problems);
   if (const YamlNode* name = section.require("material"))
     region.material = read_choice(*name, materials, problems);

@@ -24,4 +24,11 @@ void check_geometry(Case& scene, const YamlNode& tree, Problems& problems);
 /// Warns of what the laws say against their parameters, and of strength that falls faster than stress
 /// unloads.
 void warn_of_laws(Case& scene);
+/// Refuses a case that this machine cannot hold, or whose cells or coordinates numbers cannot tell apart; to
+/// be called before anything goes through the columns. Warns of one that it hardly holds.
+void check_size(Case& scene, const YamlNode& tree, Problems& problems);
+
+/// Warns of values that no ground has and of ground that yields at rest; refuses what cannot be computed
+/// with.
+void check_magnitudes(Case& scene, const YamlNode& tree, Problems& problems);
 } // namespace mpm

@@ -1,5 +1,6 @@
 #include "solver/stages/fill.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace mpm
@@ -8,11 +9,12 @@ namespace
 {
 constexpr double rounding = 1e-9; // of a sub-cell
 
-/// A stretch of a column that one material has.
+/// A stretch of a column that one material has, of one region or more.
 struct Stretch
 {
   double bottom, top;
   int material;
+  std::vector<Layer> parts;
 };
 
 std::vector<Stretch> stretches(const Case& scene, double left, double right)
@@ -26,7 +28,8 @@ std::vector<Stretch> stretches(const Case& scene, double left, double right)
     if (joins)
       all.back().top = layer.top;
     else
-      all.push_back({layer.bottom, layer.top, material});
+      all.push_back({layer.bottom, layer.top, material, {}});
+    all.back().parts.push_back(layer);
   }
   return all;
 }
@@ -52,26 +55,99 @@ bool fill_stretch(const Stretch& s, double x, double base, double d, std::vector
   }
   return true;
 }
+
+/// Notes what became of a stretch over [left, right].
+void note(const Stretch& s, bool filled, double left, double right, std::vector<RegionFilling>& regions)
+{
+  for (const Layer& part : s.parts)
+  {
+    RegionFilling& region = regions[part.region];
+    if (!filled)
+    {
+      region.lost.add(left, right);
+      continue;
+    }
+    region.area += (right - left) * (part.top - part.bottom);
+    region.filled.add(left, right);
+    // Across a layer that dips: its height times the cosine of the dip since the column before.
+    const double width = right - left, middle = 0.5 * (s.bottom + s.top);
+    const double rise = std::isnan(region.middle) ? 0 : middle - region.middle;
+    const double thickness = (s.top - s.bottom) * width / std::hypot(width, rise);
+    region.thickness += (thickness - region.thickness) * width / region.filled.length;
+    region.middle = middle;
+  }
+}
+
+/// Where the drawing may have an edge within a column: ends of regions, corners of surfaces.
+std::vector<double> corners(const Case& scene)
+{
+  std::vector<double> found;
+  for (const Region& region : scene.regions) found.insert(found.end(), {region.left, region.right});
+  for (const Surface& surface : scene.surfaces)
+    if (const auto* line = std::get_if<Polyline>(&surface.shape))
+      found.insert(found.end(), line->x.begin(), line->x.end());
+    else
+      found.push_back(std::get<GaussianHill>(surface.shape).centre);
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+/// Adds the regions over [left, right], between corners.
+void add_piece(const Case& scene, double left, double right, std::vector<Drawn>& regions)
+{
+  constexpr int samples = 2;
+  const double part = (right - left) / samples;
+  for (int k = 0; k < samples; ++k)
+  {
+    const double x = left + (k + 0.5) * part;
+    int last = -1; // a region may have two layers at x
+    for (const Layer& layer : scene.layers(x, x))
+    {
+      regions[layer.region].area += part * (layer.top - layer.bottom);
+      if (layer.region != last) regions[layer.region].length += part;
+      last = layer.region;
+    }
+  }
+}
 } // namespace
 
 Filling fill(const Case& scene)
 {
   Filling filling;
-  filling.material_area.assign(scene.materials.size(), 0);
-  filling.material_area_lost.assign(scene.materials.size(), 0);
+  filling.regions.resize(scene.regions.size());
   const double d = scene.grid.particle_spacing();
   const long columns = std::lround(scene.domain.width() / d);
   for (long column = 0; column < columns; ++column)
   {
     const double left = scene.domain.left + d * static_cast<double>(column);
-    for (const Stretch& s : stretches(scene, left, left + d))
-    {
-      const double area = d * (s.top - s.bottom);
-      filling.material_area[s.material] += area;
-      if (!fill_stretch(s, left + d / 2, scene.domain.bottom, d, filling.seeds))
-        filling.material_area_lost[s.material] += area;
-    }
+    const std::vector<Stretch> found = stretches(scene, left, left + d);
+    if (found.empty() || found.front().bottom > scene.domain.bottom + d / 2) filling.bare.add(left, left + d);
+    for (const Stretch& s : found)
+      note(s, fill_stretch(s, left + d / 2, scene.domain.bottom, d, filling.seeds), left, left + d,
+           filling.regions);
   }
   return filling;
+}
+
+std::vector<Drawn> drawn_regions(const Case& scene)
+{
+  std::vector<Drawn> regions(scene.regions.size());
+  const std::vector<double> cuts = corners(scene);
+  const double d = scene.grid.particle_spacing();
+  const long columns = std::lround(scene.domain.width() / d);
+  auto cut = cuts.begin();
+  for (long column = 0; column < columns; ++column)
+  {
+    double left = scene.domain.left + d * static_cast<double>(column);
+    const double right = left + d;
+    while (cut != cuts.end() && *cut <= left) ++cut;
+    for (; cut != cuts.end() && *cut < right; ++cut)
+    {
+      if (*cut > left) add_piece(scene, left, *cut, regions);
+      left = *cut;
+    }
+    add_piece(scene, left, right, regions);
+  }
+  return regions;
 }
 } // namespace mpm

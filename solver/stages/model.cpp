@@ -109,7 +109,8 @@ CompliantBase* switch_boundaries(Domain& domain, const Case& scene, std::span<co
 Model make_model(const Case& scene)
 {
   Model model;
-  std::vector<Seed> seeds = fill(scene).seeds;
+  model.filling = fill(scene);
+  std::vector<Seed> seeds = std::move(model.filling.seeds);
   std::vector<Material> materials = scene.materials;
   if (scene.grid.interfaces == Interfaces::averaged) average_interfaces(scene, seeds, materials);
   model.main = std::make_unique<Domain>();

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "boundaries/free_field.hpp"
-#include "io/case.hpp"
+#include "solver/stages/fill.hpp"
 
 namespace mpm
 {
@@ -11,6 +11,7 @@ struct Model
   std::unique_ptr<Domain> main;
   std::unique_ptr<FreeFieldColumn> left, right;
   std::vector<double> reference_volume; ///< by particle id, m3 per m
+  Filling filling;                      ///< without its seeds, which have become particles
   std::vector<const FreeFieldSide*> sides;
   CompliantBase* base = nullptr; ///< of `main`; null on a fixed base and before the switch
 

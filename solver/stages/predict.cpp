@@ -1,5 +1,7 @@
 #include "solver/stages/predict.hpp"
 
+#include "io/case_size.hpp"
+#include "io/memory.hpp"
 #include "solver/mpm/parallel.hpp"
 
 namespace mpm
@@ -7,9 +9,20 @@ namespace mpm
 namespace
 {
 constexpr int probe_steps = 50;
-constexpr double bytes_per_particle = 160; // 19 doubles and ids
-constexpr double bytes_per_node = 72;
 constexpr double usual_ramps = 2; // after which a slope that stands has settled, as a rule
+
+void report_memory(Session& session, const Model& model)
+{
+  CaseSize size = expected_size(session.scene);
+  size.particles = model.main->particles.size();
+  size.nodes = model.main->grid.nodes();
+  const double needed = memory_needed(size, session.scene);
+  const FreeMemory free = free_memory();
+  session.log.info("{} particles, about {} of memory and {} a checkpoint; {} {}",
+                   model.main->particles.size(), bytes_text(needed),
+                   bytes_text(checkpoint_bytes(size.particles, session.scene)), free.limit,
+                   bytes_text(free.bytes));
+}
 
 /// Wall time of a step, s.
 double probe(Model& model, const Clock& clock)
@@ -20,21 +33,11 @@ double probe(Model& model, const Clock& clock)
   for (int k = 1; k <= probe_steps; ++k) advance(model, k * clock.dt, clock.dt);
   return std::chrono::duration<double>(Wall::now() - start).count() / probe_steps;
 }
-
-void report_size(Session& session, const Model& model)
-{
-  const int particles = model.main->particles.size();
-  const double state = 1e-6 * bytes_per_particle * particles;
-  // A checkpoint is put together in memory before it is written.
-  const double memory = 2 * state + 1e-6 * bytes_per_node * model.main->grid.nodes();
-  session.log.info("{} particles, about {:.0f} MB of memory and {:.0f} MB a checkpoint", particles, memory,
-                   state);
-}
 } // namespace
 
 int predict_shaking(Session& session, Model& model, const Clock& clock)
 {
-  report_size(session, model);
+  report_memory(session, model);
   const double duration = session.scene.seismic.duration, steps = duration / clock.dt;
   session.log.info("dt {:.3e} s: {:.0f} steps for {} s, about {} on {} threads", clock.dt, steps, duration,
                    duration_text(probe(model, clock) * steps), parallel::threads());
@@ -43,7 +46,7 @@ int predict_shaking(Session& session, Model& model, const Clock& clock)
 
 int predict_relaxation(Session& session, Model& model, const Clock& clock)
 {
-  report_size(session, model);
+  report_memory(session, model);
   const StaticSettings& s = session.scene.statics;
   const double per_step = probe(model, clock), ramp = s.ramp / clock.dt;
   const double usual = std::min(usual_ramps * ramp, s.until.at_most / clock.dt),

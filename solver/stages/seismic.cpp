@@ -11,6 +11,7 @@
 #include "solver/stages/departures.hpp"
 #include "solver/stages/energy_watch.hpp"
 #include "solver/stages/fidelity.hpp"
+#include "solver/stages/filling_report.hpp"
 #include "solver/stages/flip_blend.hpp"
 #include "solver/stages/motion.hpp"
 #include "solver/stages/observer.hpp"
@@ -19,6 +20,7 @@
 #include "solver/stages/slide_report.hpp"
 
 #include <cmath>
+#include <utility>
 
 namespace mpm
 {
@@ -315,14 +317,17 @@ int run_seismic(Session& session)
   Model model;
   Clock clock;
   std::string from;
-  const auto begin = [&]
+  bool as_new = false;
+  const auto begin = [&] // unless nothing has been done to it yet
   {
+    if (std::exchange(as_new, true)) return;
     model = make_model(scene);
     clock = {};
     clock.dt = choose_step(scene, *model.main);
     if (!options.from.empty()) from = load_static_state(session, model);
   };
   begin();
+  report_filling(session.log, scene, model.filling);
   if (scene.seismic.duration / clock.dt > most_steps)
     throw Error(
         exit_code::bad_input,
@@ -354,6 +359,7 @@ int run_seismic(Session& session)
   const auto load = [&](const h5::File& file)
   {
     begin();
+    as_new = false;
     shaking.emplace(session, model, motion, from);
     shaking->resume(file, clock);
   };

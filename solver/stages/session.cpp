@@ -225,6 +225,14 @@ int run_program(int argc, char** argv, const std::string& name, int (*stage)(Ses
     std::cerr << error.what() << '\n';
     return error.code;
   }
+  catch (const std::bad_alloc&)
+  {
+    std::cerr
+        << name
+        << ": memory is not enough: use larger cells (grid.spacing) or a smaller domain, or free memory; "
+           "--check tells what a case needs\n";
+    return exit_code::bad_input;
+  }
   catch (const std::exception& error)
   {
     std::cerr << name << ": " << error.what()

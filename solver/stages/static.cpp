@@ -5,8 +5,11 @@
 //   mpm-static cases/slope/case.yaml --check               says what it would cost
 
 #include "solver/stages/fidelity.hpp"
+#include "solver/stages/filling_report.hpp"
 #include "solver/stages/predict.hpp"
 #include "solver/stages/relaxation.hpp"
+
+#include <utility>
 
 namespace mpm
 {
@@ -23,8 +26,10 @@ int run_static(Session& session)
   Model model;
   Clock clock;
   double shaking_step = 0;
-  const auto begin = [&]
+  bool as_new = false;
+  const auto begin = [&] // unless nothing has been done to it yet
   {
+    if (std::exchange(as_new, true)) return;
     model = make_model(scene);
     clock = {};
     add_static_boundaries(model, scene);
@@ -32,9 +37,10 @@ int run_static(Session& session)
     if (scene.statics.mass_scaling) scale_masses(model);
     clock.dt = scene.statics.safety * scene.grid.spacing / greatest_wave_speed(*model.main);
   };
+  begin();
+  report_filling(session.log, scene, model.filling);
   if (session.options.check)
   {
-    begin();
     report_wave_fidelity(session, shaking_step, nullptr);
     return predict_relaxation(session, model, clock);
   }
@@ -53,6 +59,7 @@ int run_static(Session& session)
   const auto load = [&](const h5::File& file)
   {
     begin();
+    as_new = false;
     relaxation.emplace(session, model);
     load_model(file, model, clock, scene.statics.until.at_most);
     relaxation->load(file);

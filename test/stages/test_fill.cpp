@@ -51,8 +51,8 @@ TEST_CASE("The area of a Gaussian hill is exact", "[stages]")
   const double left = hill.side == GaussianHill::Side::both ? half : 15 * 40;
   const double exact = 80 * 10.37 + left + half;
   CHECK(std::abs(total(filling) / exact - 1) < 1e-12);
-  CHECK(std::abs(filling.material_area[0] / exact - 1) < 1e-12);
-  CHECK(filling.material_area_lost[0] == 0);
+  CHECK(std::abs(filling.regions[0].area / exact - 1) < 1e-12);
+  CHECK(filling.regions[0].lost.length == 0);
   const double d = h / n;
   for (const Seed& s : filling.seeds)
   {
@@ -119,9 +119,13 @@ TEST_CASE("A layer too thin for a particle is reported as lost", "[stages]")
   scene.regions = {{.material = 1, .above = 0, .below = 1}, {.material = 0, .above = {}, .below = 0}};
   const Filling filling = fill(scene);
   const double area = 80 * scene.surfaces[1].up;
-  CHECK(filling.material_area[1] == Approx(area).epsilon(1e-9));
-  CHECK(total(filling, 1) + filling.material_area_lost[1] == Approx(area).epsilon(1e-9));
-  CHECK((filling.material_area_lost[1] > 0) == (scene.surfaces[1].up < 0.25));
+  CHECK(drawn_regions(scene)[0].area == Approx(area).epsilon(1e-9));
+  CHECK(drawn_regions(scene)[0].length == Approx(80).epsilon(1e-9));
+  const bool lost = scene.surfaces[1].up < 0.25;
+  CHECK(total(filling, 1) == Approx(lost ? 0 : area).epsilon(1e-9));
+  CHECK(filling.regions[0].area == Approx(lost ? 0 : area).epsilon(1e-9));
+  CHECK(filling.regions[0].lost.length == Approx(lost ? 80 : 0));
+  CHECK(filling.regions[0].filled.length == Approx(lost ? 0 : 80));
 }
 
 TEST_CASE("Surfaces have their exact mean over any stretch", "[stages]")
