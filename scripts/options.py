@@ -1,6 +1,7 @@
 """The command line of the scripts: a wrong one ends with 64, as in the solver, and is answered with the nearest option."""
 import argparse
 import difflib
+import sys
 
 
 class Parser(argparse.ArgumentParser):
@@ -13,14 +14,15 @@ class Parser(argparse.ArgumentParser):
         self.exit(64, f"{self.prog}: {message}; see {self.prog} --help\n")
 
     def parse_known_args(self, args=None, namespace=None):
-        known, left = super().parse_known_args(args, namespace)
-        for word in left:
-            if word.startswith("-"):
-                self.refuse(word.split("=")[0])
-        return known, left
+        for word in sys.argv[1:] if args is None else args:
+            option = word.split("=")[0]
+            if word == "--":
+                break
+            if option.startswith("--") and option not in self._option_string_actions:
+                self.refuse(option)
+        return super().parse_known_args(args, namespace)
 
     def refuse(self, option):
         """Ends with what the option may have been meant for."""
-        known = [name for action in self._actions for name in action.option_strings if name.startswith("--")]
-        like = difflib.get_close_matches(option, known, 1)
+        like = difflib.get_close_matches(option, self._option_string_actions, 1)
         self.error(f"{option}: there is no such option" + (f"; did you mean '{like[0]}'?" if like else ""))

@@ -160,7 +160,7 @@ def misspelt():
     parser = options.Parser(prog="vary")
     parser.add_argument("folder")
     parser.add_argument("--times")
-    parser.add_argument("--profiles")
+    parser.add_argument("--profiles", required=True)
     claims = []
     for words, part in ((["a", "--tmies", "1"], "did you mean '--times'?"), (["a", "--profile=b"], "'--profiles'"),
                         (["a", "--zigzag"], "no such option"), (["a", "--time", "1"], "'--times'")):
