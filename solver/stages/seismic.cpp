@@ -153,10 +153,10 @@ private:
     progress.finish(moment());
     report_boundaries(session_, model_);
     report_end();
-    session_.log.info("{}", slide_text(observer_.slide().summary()));
     report_rest(clock);
     save("final.h5", clock);
     energy_.report();
+    session_.log.info("{}", slide_text(observer_.slide().summary()));
     session_.folder->prune(0);
     session_.finish("seismic", exit_code::done, model_, clock, summary());
     return exit_code::done;
