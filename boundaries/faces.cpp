@@ -78,7 +78,7 @@ void FaceNodes::find(const Domain& domain, const std::vector<Face>& faces,
     const Stencil x = cubic_stencil(domain.particles.x[at] + faces[k].offset_x - g.origin_x, g.spacing);
     const Stencil y = cubic_stencil(domain.particles.y[at] + faces[k].offset_y - g.origin_y, g.spacing);
     if (cells_.empty() || cells_.back().i != x.first || cells_.back().j != y.first)
-      cells_.emplace_back(x.first, y.first);
+      cells_.push_back(Cell{x.first, y.first});
     Cell& cell = cells_.back();
     const Pairs x_weight = twice(x.weight);
     add(cell.dashpot, x_weight, y.weight, &faces[k].dashpot_x);

@@ -301,7 +301,7 @@ void FrozenImages::add_forces(Domain& domain, double)
   const auto [ax, ay] = correction_[0];
   Grid& g = domain.grid;
   g.for_each_block(
-      [&](int block)
+      [&g, ax = ax, ay = ay](int block)
       {
         for (int k = block * block_nodes; k < (block + 1) * block_nodes; ++k)
         {

@@ -18,8 +18,8 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 
 import plot_sections
+from options import Parser
 from plot_common import WIDTH, array, frame_times, group_of, open_history, read_summary, save
-from plot_common import Parser
 from plot_histories import read_outline
 from plot_page import measures
 

@@ -9,11 +9,12 @@ baseline correction of a real record; the padded start and end and a low-order c
 ground at rest where it began. The Python standard library suffices; the same seed gives the same file.
 """
 
-import argparse
 import cmath
 import math
 import pathlib
 import random
+
+from options import Parser
 
 G = 9.80665  # m/s2
 DT = 0.01  # s
@@ -135,7 +136,7 @@ def measures(a):
 
 def main():
     root = pathlib.Path(__file__).resolve().parent.parent
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = Parser(prog="make_motion", description=__doc__.splitlines()[0])
     parser.add_argument("--out", type=pathlib.Path, default=root / "cases" / "motions" / "synthetic.AT2")
     parser.add_argument("--seed", type=int, default=8)
     parser.add_argument("--pga", type=float, default=0.25, help="in g")

@@ -23,7 +23,8 @@ from scipy.spatial import cKDTree
 import plot_common
 import rigid_block
 import slip_circle
-from plot_common import Missing, Parser, array, group_of, open_history
+from options import Parser
+from plot_common import Missing, array, group_of, open_history
 from plot_histories import read_motion, read_outline
 
 UNITS = {"Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9, "kg/m3": 1.0, "g/cm3": 1e3, "t/m3": 1e3, "m": 1.0, "cm": 1e-2,

@@ -1,5 +1,4 @@
 """What the pictures of a run share: reading its files tolerantly, writing a picture."""
-import argparse
 import json
 import os
 import sys
@@ -11,17 +10,11 @@ import h5py
 import matplotlib
 
 matplotlib.use("Agg")
+matplotlib.rcParams["text.parse_math"] = False  # names of cases, gauges and materials are no formulas, whatever they hold
 import matplotlib.pyplot as plt
 import numpy as np
 
 WIDTH = 10.0  # inches, of every picture
-
-
-class Parser(argparse.ArgumentParser):
-    """Ends with 64, as the solver does, on a wrong command line."""
-
-    def error(self, message):
-        self.exit(64, f"{self.prog}: {message}; see {self.prog} --help\n")
 
 
 class Missing(Exception):
@@ -79,10 +72,33 @@ def read_summary(folder):
     return summary if isinstance(summary, dict) else {}
 
 
+def label(name):
+    """A name for a legend, which leaves out what begins with an underscore."""
+    return " " + name if name.startswith("_") else name
+
+
+def stage_of(folder, summary):
+    """"static" or "seismic": as the folder's identity says, which is there from the first moment of a run."""
+    try:
+        identity = json.loads((folder / "identity.json").read_text())
+        return identity["stage"]
+    except (OSError, ValueError, KeyError, TypeError):
+        pass
+    shaken = (folder / "history.h5").exists() or any(folder.glob("frame-*.hdf"))
+    return summary.get("stage") or ("seismic" if shaken else "static")
+
+
+def state_of(summary):
+    """What is to be said of a run that has not ended as it should, empty otherwise."""
+    words = {0: "", 75: "interrupted", 80: "diverged", 81: "not converged"}
+    code = summary.get("exit")
+    return "not ended" if code is None else words.get(code, f"ended with {code}")
+
+
 def heading_of(folder, summary):
-    """Title of the pictures: name of the case (or of the folder) and of the motion."""
+    """Title of the pictures: name of the case (or of the folder) and of the motion, and that a run is not done."""
     name = text(summary.get("name") or folder.resolve().name)
-    return f"{name}, {summary['motion_title']}" if summary.get("motion_title") else name
+    return ", ".join(part for part in (name, summary.get("motion_title"), state_of(summary)) if part)
 
 
 def save(figure, path, heading):

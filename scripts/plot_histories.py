@@ -3,9 +3,10 @@ from textwrap import fill
 
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.ticker import FuncFormatter, NullFormatter
 
 import spectrum
-from plot_common import WIDTH, Missing, array, group_of, open_history, save, text
+from plot_common import WIDTH, Missing, array, group_of, label, open_history, save, text
 
 DIRECTIONS = ("horizontal (x)", "vertical (y)")
 
@@ -47,7 +48,7 @@ def surface_motions(file):
     found = []
     if "gauges" in file and "gauges/velocity" in file:
         time, names, histories = read_gauges(file)
-        found += [(name, time, histories["velocity"][:, k]) for k, name in enumerate(names)]
+        found += [(label(name), time, histories["velocity"][:, k]) for k, name in enumerate(names)]
     for side in ("left", "right"):
         if f"free_field/{side}" in file:
             column = file[f"free_field/{side}"]
@@ -68,7 +69,7 @@ def histories(folder, out, heading):
     for row, (field, values) in zip(axes, fields.items()):
         unit = {"displacement": "m", "velocity": "m/s"}[field]
         for component, axis in enumerate(row):
-            axis.plot(time, values[:, :, component], lw=0.9, label=names)
+            axis.plot(time, values[:, :, component], lw=0.9, label=[label(name) for name in names])
             axis.set_ylabel(f"{field} {'xy'[component]} ({unit})")
             axis.grid(alpha=0.3)
     for axis in axes[-1]:
@@ -112,14 +113,16 @@ def draw_spectra(axis, component, outcrop, others):
     """
     periods = spectrum.default_periods()
     motions = [("outcrop = 2 × upgoing", outcrop[0][:, component], outcrop[1])]
-    motions += [(label, *spectrum.acceleration_of(time, velocity[:, component])) for label, time, velocity in others]
-    for k, (label, acceleration, dt) in enumerate(motions):
+    motions += [(name, *spectrum.acceleration_of(time, velocity[:, component])) for name, time, velocity in others]
+    for k, (name, acceleration, dt) in enumerate(motions):
         # Periods the samples cannot resolve are left out.
         shown = periods[periods >= 4.0 * dt]
-        style = {"color": "k", "lw": 1.8} if k == 0 else {"lw": 1.0, "ls": "--" if "free field" in label else "-"}
-        axis.semilogx(shown, spectrum.pseudo_acceleration(acceleration, dt, shown) / spectrum.GRAVITY, label=label,
+        style = {"color": "k", "lw": 1.8} if k == 0 else {"lw": 1.0, "ls": "--" if name.startswith("free field, ") else "-"}
+        axis.semilogx(shown, spectrum.pseudo_acceleration(acceleration, dt, shown) / spectrum.GRAVITY, label=name,
                       **style)
     axis.set_xlim(periods[0], periods[-1])
+    axis.xaxis.set_major_formatter(FuncFormatter(lambda period, _: f"{period:g}"))
+    axis.xaxis.set_minor_formatter(NullFormatter())
     axis.set_ylim(bottom=0.0)
     axis.set_ylabel("5 % Sa (g)")
     axis.set_title(f"response spectra, {DIRECTIONS[component]}", fontsize=9)

@@ -11,7 +11,7 @@ from matplotlib.colors import Normalize
 import newmark
 import plot_sections
 import spectrum
-from plot_common import Missing, array, frame_times, group_of, open_history, read_summary, text
+from plot_common import Missing, array, frame_times, group_of, label, open_history, read_summary, text
 from plot_histories import read_gauges, read_motion, read_outline
 
 PAGE = (8.27, 11.69)  # inches, A4
@@ -48,7 +48,7 @@ def draw_gauges(axis, file, trigger):
     """Distance (m) of the gauges from where they were."""
     time, names, fields = read_gauges(file)
     for k, name in enumerate(names):
-        axis.plot(time, np.linalg.norm(fields["displacement"][:, k], axis=1), lw=0.9, label=name)
+        axis.plot(time, np.linalg.norm(fields["displacement"][:, k], axis=1), lw=0.9, label=label(name))
     axis.set_title("displacement of the gauges (m)")
     axis.legend(fontsize=6)
     mark_trigger(axis, trigger)
@@ -167,6 +167,12 @@ def draw_words(axis, summary, block):
     write_text(axis, 0.52, "What it carries, and warnings", carried(summary) + lines, 78)
 
 
+def went_on(file, summary):
+    """What is to be said where the histories are of later than the measures: a run that has been taken up again."""
+    end = array(group_of(file, "slide"), "time")[-1]
+    return f"; measures at t = {summary['time']:.1f} s, before it went on" if end > summary["time"] + 0.2 else ""
+
+
 def page(folder, out, heading):
     """summary.png: one page on the run."""
     summary = read_summary(folder)
@@ -178,6 +184,7 @@ def page(folder, out, heading):
         block = rigid_block_of(folder)
         rows = figure.subfigures(5 if block else 4, 1, height_ratios=(3.2, 2.1, 2.1, *([2.1] if block else []), 2.9))
         with open_history(folder) as file:
+            heading += went_on(file, summary)
             draw_section(rows[0], rows[0].subplots(), folder, read_outline(file))
             for axis, draw in zip(np.append(rows[1].subplots(1, 2), rows[2].subplots(1, 2)),
                                   (draw_gauges, draw_slide, draw_speed, draw_motion)):

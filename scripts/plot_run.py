@@ -11,6 +11,7 @@ import plot_energy
 import plot_histories
 import plot_page
 import plot_sections
+from options import Parser
 
 
 def time_list(given):
@@ -20,19 +21,12 @@ def time_list(given):
 
 def parse_arguments():
     """The command line."""
-    parser = plot_common.Parser(prog="plot-run", description="Draws the results of a static or seismic run.")
+    parser = Parser(prog="plot-run", description="Draws the results of a static or seismic run.")
     parser.add_argument("folder", type=Path, metavar="RUN_FOLDER", help="output folder of mpm-static or mpm-seismic")
     parser.add_argument("--times", type=time_list, metavar="t1,t2,...",
                         help="times (s) of the sections, the nearest frames are drawn; default six evenly spread")
     parser.add_argument("--out", type=Path, metavar="DIR", help="default RUN_FOLDER/pictures")
     return parser.parse_args()
-
-
-def is_static(folder, summary):
-    """Whether the folder is that of a static stage: as its summary says, else when it holds no history."""
-    if "stage" in summary:
-        return summary["stage"] == "static"
-    return not (folder / "history.h5").exists()
 
 
 def main():
@@ -46,7 +40,7 @@ def main():
     summary = plot_common.read_summary(folder)
     pictures = [("plastic_strain.png", plot_sections.plastic_strain, (arguments.times,)),
                 ("displacement.png", plot_sections.displacement, (arguments.times,))]
-    if is_static(folder, summary):
+    if plot_common.stage_of(folder, summary) == "static":
         pictures += [("static_stress.png", plot_sections.static_stress, ())]
     else:
         pictures += [("histories.png", plot_histories.histories, ()), ("motion.png", plot_histories.motion, ()),

@@ -155,16 +155,18 @@ def displacement(folder, out, heading, times):
 def static_stress(folder, out, heading):
     """static_stress.png: stresses (kPa, tension positive) at the end of the static stage."""
     path = folder / "final.h5"
-    particles = read_particles(path if path.exists() else frame_times(folder)[-1][1], "stress")
+    if not path.exists():
+        raise Missing("no final.h5: the static stage has not ended well yet")
+    particles = read_particles(path, "stress")
     xx, yy, zz, xy = particles["stress"].T / 1e3
     q = np.sqrt(0.5 * ((xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2) + 3.0 * xy**2)
     shear = float(np.percentile(np.abs(xy), 99.5)) or 1.0
     low_yy, low_xx, top_q = np.percentile(yy, 0.2), np.percentile(xx, 0.2), np.percentile(q, 99.8)
     panels = [{"title": title, "values": values, "colours": colours, "norm": norm} for title, values, colours, norm in (
-        (r"$\sigma_{yy}$", yy, "viridis", Normalize(min(low_yy, -1e-6), 0.0)),
-        (r"$\sigma_{xx}$", xx, "viridis", Normalize(min(low_xx, -1e-6), 0.0)),
-        (r"$\tau_{xy}$", xy, "RdBu_r", Normalize(-shear, shear)),
-        (r"$q = \sqrt{3 J_2}$", q, "inferno_r", Normalize(0.0, max(top_q, 1e-6))))]
+        ("σyy", yy, "viridis", Normalize(min(low_yy, -1e-6), 0.0)),
+        ("σxx", xx, "viridis", Normalize(min(low_xx, -1e-6), 0.0)),
+        ("τxy", xy, "RdBu_r", Normalize(-shear, shear)),
+        ("q = √(3 J₂)", q, "inferno_r", Normalize(0.0, max(top_q, 1e-6))))]
     figure, axes = stack([particles] * len(panels), panels)
     for axis, panel in zip(axes, panels):
         colour_bar(figure, axis, [panel], "kPa", aspect=15)

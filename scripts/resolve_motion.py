@@ -15,6 +15,8 @@ import sys
 
 import numpy
 
+from options import Parser
+
 
 class BadRecord(Exception):
     pass
@@ -70,7 +72,7 @@ def write(path, header, values, step):
 
 
 def arguments():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = Parser(prog="resolve-motion", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("east", metavar="EAST", help="or the only component")
     parser.add_argument("north", metavar="NORTH", nargs="?")
     parser.add_argument("--azimuth", type=float, help="degrees, clockwise from north; with two components")

@@ -14,7 +14,8 @@ from pathlib import Path
 
 import numpy as np
 
-from plot_common import Missing, Parser, array, group_of, open_history
+from options import Parser
+from plot_common import Missing, array, group_of, open_history
 from plot_histories import read_gauges
 
 PROGRAMS = Path(__file__).resolve().parent.parent / "build"

@@ -163,13 +163,13 @@ private:
     departures_.report();
     if (!session_.at_end()) observer_.look_last(clock);
     report_end(clock);
-    session_.log.info("{}", slide_text(observer_.slide().summary()));
     report_rest(clock);
     if (session_.at_end())
       observer_.write(applied_until(clock));
     else
       save("final.h5", clock);
     energy_.report();
+    session_.log.info("{}", slide_text(observer_.slide().summary()));
     session_.finish("seismic", exit_code::done, model_, clock, summary(clock), observer_.files());
     return exit_code::done;
   }

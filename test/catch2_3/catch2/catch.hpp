@@ -3,28 +3,20 @@
 
 #include <catch2/catch_all.hpp>
 
+#include <concepts>
 #include <string>
+#include <utility>
 
 using Catch::Approx;
 
 namespace Catch::Matchers
 {
-// Of a text, a part of it; version 3 has its own Contains for elements of any range, which these go before.
-inline StringContainsMatcher Contains(const char* part)
+// Of a text, a part of it: before the Contains of version 3, which is for elements of any range.
+template <class Part>
+  requires std::convertible_to<Part, std::string>
+StringContainsMatcher Contains(Part&& part)
 {
-  return ContainsSubstring(part);
-}
-inline StringContainsMatcher Contains(const std::string& part)
-{
-  return ContainsSubstring(part);
-}
-inline StringContainsMatcher Contains(std::string& part)
-{
-  return ContainsSubstring(part);
-}
-inline StringContainsMatcher Contains(std::string&& part)
-{
-  return ContainsSubstring(part);
+  return ContainsSubstring(std::string(std::forward<Part>(part)));
 }
 } // namespace Catch::Matchers
 

@@ -1,0 +1,28 @@
+"""The command line of the scripts: a wrong one ends with 64, as in the solver, and is answered with the nearest option."""
+import argparse
+import difflib
+import sys
+
+
+class Parser(argparse.ArgumentParser):
+    """An argument parser without abbreviations, whose errors end with 64."""
+
+    def __init__(self, *arguments, **named):
+        super().__init__(*arguments, allow_abbrev=False, **named)
+
+    def error(self, message):
+        self.exit(64, f"{self.prog}: {message}; see {self.prog} --help\n")
+
+    def parse_known_args(self, args=None, namespace=None):
+        for word in sys.argv[1:] if args is None else args:
+            option = word.split("=")[0]
+            if word == "--":
+                break
+            if option.startswith("--") and option not in self._option_string_actions:
+                self.refuse(option)
+        return super().parse_known_args(args, namespace)
+
+    def refuse(self, option):
+        """Ends with what the option may have been meant for."""
+        like = difflib.get_close_matches(option, self._option_string_actions, 1)
+        self.error(f"{option}: there is no such option" + (f"; did you mean '{like[0]}'?" if like else ""))
