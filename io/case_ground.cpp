@@ -97,6 +97,19 @@ Polyline read_profile(const YamlNode& node, const std::filesystem::path& folder,
   return line;
 }
 
+/// The points of a file as if they stood in the case: what they are makes the ground, not where they came
+/// from.
+void resolve_points(const Section& section, const Polyline& line, Problems& problems)
+{
+  for (std::size_t i = 0; i < line.x.size(); ++i)
+  {
+    const std::string point = "points[" + std::to_string(i) + "]";
+    section.resolve(point + "[0]", quantity_text(line.x[i], Dimension::length));
+    section.resolve(point + "[1]", quantity_text(line.y[i], Dimension::length));
+  }
+  problems.settings.drop(section.path_of("file"));
+}
+
 GaussianHill read_hill(Section section)
 {
   GaussianHill hill;
@@ -123,7 +136,11 @@ Offset read_surface(Section section, Surface& surface, const std::filesystem::pa
     return {};
   }
   if (points) surface.shape = read_points(*points, problems);
-  if (file) surface.shape = read_profile(*file, folder, problems);
+  if (file)
+  {
+    surface.shape = read_profile(*file, folder, problems);
+    resolve_points(section, std::get<Polyline>(surface.shape), problems);
+  }
   if (hill) surface.shape = read_hill(Section(hill, problems));
   if (!offset) return {};
   return {read_choice(*offset, names, problems), section.number("up", Dimension::length)};

@@ -291,9 +291,7 @@ int run_seismic(Session& session)
   if (options.from.empty()) session.log.info("no gravity: starts from a stress-free state");
 
   // 2. The folder: ours, finished, or to be gone on with.
-  RunFolder::Identity identity{{"stage", "seismic"}};
-  for (const auto& setting : settings_with_digests(scene))
-    if (!setting.first.starts_with("output.checkpoint")) identity.push_back(setting); // when, not what
+  RunFolder::Identity identity = seismic_settings(scene);
   identity.insert(identity.end(), motion.identity.begin(), motion.identity.end());
   if (!from.empty()) identity.push_back({"from", from});
   session.open_folder(identity);

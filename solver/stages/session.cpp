@@ -55,6 +55,8 @@ std::optional<int> parse(int argc, char** argv, Options& options)
     app.add_option("--scale", options.scale, "factor on the motion");
   }
   app.add_flag("--check", options.check, "validate and predict the cost; run nothing");
+  app.add_flag("--print-case", options.print_case,
+               "print the case with every default written out; run nothing");
   app.add_option("--threads", options.threads, "threads (default: OMP_NUM_THREADS, else all)")
       ->check(CLI::Range(1, 4096));
   app.add_option("--profile", options.profile, "apply one of the case's profiles; --set goes on top");
@@ -82,7 +84,7 @@ std::optional<int> parse(int argc, char** argv, Options& options)
   if (app.count("--max-wall")) options.max_wall = parse_wall_time(wall);
   if (quiet) options.verbosity = Verbosity::quiet;
   if (verbose) options.verbosity = Verbosity::verbose;
-  if (options.out.empty() && !options.check)
+  if (options.out.empty() && !options.check && !options.print_case)
     throw Error(exit_code::usage, options.program + ": --out is missing: where shall the results go?");
   return std::nullopt;
 }
@@ -143,6 +145,7 @@ void Session::write_checkpoint(const std::string& name, std::string_view stage, 
                           file.attribute("path", scene.path.string(), "case");
                           file.attribute("profile", scene.profile, "case");
                           file.write_strings("overrides", scene.overrides);
+                          file.write_text("case_resolved", resolved_case());
                           file.write_strings("ground", ground_settings(scene));
                           file.write_strings("identity", folder->identity_lines());
                           file.write_strings("warnings", log.warnings());
@@ -213,7 +216,7 @@ void Session::finish(std::string_view stage, int exit, const Model& model, const
   write_text_atomically(*folder / "summary.json", summary.dump(2) + "\n");
   if (exit == exit_code::done)
   {
-    results.insert(results.end(), {"final.h5", "summary.json", "identity.json"});
+    results.insert(results.end(), {"final.h5", "summary.json", "identity.json", resolved_name});
     write_finish_mark(folder->path(), results);
     folder->prune(0);
   }
@@ -221,28 +224,6 @@ void Session::finish(std::string_view stage, int exit, const Model& model, const
            duration_text(wall_seconds()), clock.step - first_step_,
            summary["ns_per_particle_step"].get<double>());
   log.info("of it {} ns", phases);
-}
-
-std::vector<std::pair<std::string, std::string>> settings_with_digests(const Case& scene)
-{
-  std::vector<std::pair<std::string, std::string>> result;
-  for (const auto& [key, value] : scene.settings)
-  {
-    result.push_back({key, value});
-    if (key.starts_with("surfaces.") && key.ends_with(".file"))
-      result.push_back({key + " (sha256)", sha256_file(scene.path.parent_path() / value)});
-  }
-  return result;
-}
-
-std::vector<std::string> ground_settings(const Case& scene)
-{
-  std::vector<std::string> lines;
-  for (const auto& [key, value] : settings_with_digests(scene))
-    for (const std::string_view part : {"grid.", "domain.", "surfaces.", "regions", "materials.",
-                                        "static.gravity", "seismic.base.kind", "seismic.sides"})
-      if (key.starts_with(part)) lines.push_back(key + " = " + value);
-  return lines;
 }
 
 void check_step(Session& session, const Model& model, double safety, Clock& clock)
@@ -270,6 +251,7 @@ int run_program(int argc, char** argv, const std::string& name, int (*stage)(Ses
     Session session(options);
     try
     {
+      if (options.print_case) return std::cout << session.resolved_case() << std::flush, exit_code::done;
       return stage(session);
     }
     catch (const Error& error)
