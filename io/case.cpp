@@ -99,6 +99,16 @@ void read_parts(Case& scene, const YamlNode& tree, Problems& problems)
   scene.safety = read_safety(time_step, scene.safety);
   scene.output = read_output(root, scene.materials, problems);
 }
+/// All that was read, and what was looked at in another way as it stands.
+Settings::Entries resolved(const Case& scene, const YamlNode& tree, Settings settings)
+{
+  for (const auto& [path, text] : flattened(tree))
+    if (!settings.knows(path)) settings.set(path, text);
+  const SeismicSettings& seismic = scene.seismic;
+  if (settings.knows("seismic.duration") && seismic.base == BaseKind::compliant && !seismic.spring)
+    settings.set("seismic.base.spring", quantity_text(scene.longest_period(), Dimension::time));
+  return settings.entries();
+}
 } // namespace
 
 Case load_case(const std::filesystem::path& path, const std::vector<std::string>& overrides,
@@ -114,11 +124,11 @@ Case load_case(const std::filesystem::path& path, const std::vector<std::string>
   if (tree.kind == YamlNode::Kind::empty) problems.throw_if_any(); // not YAML: nothing more can be said
   apply_profile(tree, profile, problems);
   for (const std::string& text : overrides) apply_override(tree, text, problems);
-  scene.settings = flattened(tree);
   read_parts(scene, tree, problems);
   problems.throw_if_any();
   check_geometry(scene, tree, problems);
   problems.throw_if_any();
+  scene.settings = resolved(scene, tree, problems.settings);
   return scene;
 }
 } // namespace mpm

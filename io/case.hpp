@@ -4,6 +4,7 @@
 
 #include "boundaries/ground_motion.hpp"
 #include "io/record_reader.hpp"
+#include "io/settings.hpp"
 #include "io/surface.hpp"
 #include "materials/material.hpp"
 
@@ -196,9 +197,8 @@ struct Case
   std::string text;                   ///< the file as it stands
   std::string profile;                ///< the one of `profiles` that was applied; empty: none
   std::vector<std::string> overrides; ///< `key.path=value`, as given by --set
-  /// Every key given and the text of its value ("grid.spacing", "0.25 m"), profile and overrides applied, in
-  /// the file's order; elements of lists as "domain.x[0]".
-  std::vector<std::pair<std::string, std::string>> settings;
+  /// Every key with the value that it has after all, given or default, profile and overrides applied.
+  Settings::Entries settings;
   std::vector<std::string> warnings; ///< for the log
 
   std::string name;

@@ -36,6 +36,19 @@ Polyline read_points(const YamlNode& node, Problems& problems)
   return line;
 }
 
+/// The points of a file as if they stood in the case: what they are makes the ground, not where they came
+/// from.
+void resolve_points(const Section& section, const Polyline& line, Problems& problems)
+{
+  for (std::size_t i = 0; i < line.x.size(); ++i)
+  {
+    const std::string point = "points[" + std::to_string(i) + "]";
+    section.resolve(point + "[0]", quantity_text(line.x[i], Dimension::length));
+    section.resolve(point + "[1]", quantity_text(line.y[i], Dimension::length));
+  }
+  problems.settings.drop(section.path_of("file"));
+}
+
 GaussianHill read_hill(Section section)
 {
   GaussianHill hill;
@@ -68,6 +81,7 @@ Offset read_surface(Section section, Surface& surface, const std::filesystem::pa
     if (const std::string problem = rising_problem(line); !problem.empty())
       problems.add(file->place, file->path,
                    (folder / file->text).lexically_normal().string() + ": " + problem);
+    resolve_points(section, line, problems);
     surface.shape = std::move(line);
   }
   if (hill) surface.shape = read_hill(Section(hill, problems));

@@ -1,6 +1,7 @@
 #include "io/case_sections.hpp"
 
 #include <algorithm>
+#include <concepts>
 
 namespace mpm
 {
@@ -102,6 +103,23 @@ void note_mismatch(const YamlNode& node, const std::string& message, Problems& p
                colon == std::string::npos ? message : message.substr(colon + 2));
 }
 
+/// Notes what the law has found for keys that were left out, where it reads back to the same law: a residual
+/// strength, and the width of the band that the softening is spread over.
+template <class L>
+void note_resolved(const std::string& path, L& law, double spacing, Settings& settings)
+{
+  for (const Target& t : targets_of(law))
+    if (!t.choice && !t.key.starts_with("softening.") && std::isfinite(*t.value))
+      settings.set(path + "." + std::string(t.key), quantity_text(*t.value, t.dimension));
+  if constexpr (std::derived_from<L, LinearSoftening>)
+  {
+    if (std::isnan(law.softening_displacement) || !std::isnan(law.band_width)) return;
+    const double cells = std::isnan(law.band_cells) ? L::usual_band_cells : law.band_cells;
+    settings.drop(path + ".softening.band_cells");
+    settings.set(path + ".softening.band_width", quantity_text(cells * spacing, Dimension::length));
+  }
+}
+
 /// Every key is known while the model is not.
 void accept_all(Section& section, const YamlNode& node)
 {
@@ -128,7 +146,10 @@ Material read_material(const YamlNode& node, double spacing, Problems& problems)
         const std::size_t before = problems.count();
         read_targets(section, targets_of(law));
         if (problems.count() == before && std::isfinite(spacing))
+        {
           note_mismatch(node, law.resolve(spacing), problems);
+          note_resolved(node.path, law, spacing, problems.settings);
+        }
         material.law = law;
       });
   return material;

@@ -26,6 +26,8 @@ MotionSource read_source(const YamlNode& node, const std::filesystem::path& fold
   }
   Section section(&node, problems);
   source.record.file = beside(folder, section.text("file"));
+  if (section.given() && !source.record.file.empty())
+    section.resolve("file", std::filesystem::absolute(source.record.file).string());
   const std::vector<std::string> formats = record_formats();
   source.record.format = formats[section.choice_or(0, "format", formats)];
   source.record.dt = section.number_or(NAN, "dt", Dimension::time, Range::positive());
@@ -67,6 +69,7 @@ RecordedAs read_recorded_as(Section& motion, Problems& problems)
 void read_end(Section& motion, MotionSettings& settings, Problems& problems)
 {
   const YamlNode* node = motion.find("end");
+  if (!node) motion.resolve("end", "never");
   if (!node || node->text == "never") return;
   if (node->text == "self_driven")
   {
@@ -88,6 +91,7 @@ void read_end(Section& motion, MotionSettings& settings, Problems& problems)
 SpringTime read_spring(Section& base, BaseKind kind, Problems& problems)
 {
   const YamlNode* node = base.find("spring");
+  if (!node) base.resolve("spring", "auto"); // of a compliant base: see load_case
   if (!node || node->text == "auto") return {};
   if (node->text == "none") return 0;
   if (node->kind == YamlNode::Kind::scalar && parse_quantity(node->text, Dimension::time).problem.empty())
@@ -136,10 +140,17 @@ void read_duration(Section& section, SeismicSettings& settings, Problems& proble
 MotionSettings read_motion(Section motion, const std::filesystem::path& folder, Problems& problems)
 {
   MotionSettings settings;
-  if (!motion.given()) return settings;
-  settings.processing.recorded_as = read_recorded_as(motion, problems);
-  settings.horizontal = read_direction(motion, "horizontal", folder, problems);
-  settings.vertical = read_direction(motion, "vertical", folder, problems);
+  if (motion.given())
+  {
+    settings.processing.recorded_as = read_recorded_as(motion, problems);
+    settings.horizontal = read_direction(motion, "horizontal", folder, problems);
+    settings.vertical = read_direction(motion, "vertical", folder, problems);
+  }
+  else
+  {
+    motion.resolve("recorded_as", "outcrop");
+    motion.resolve("horizontal", "built_in");
+  }
   if (!settings.horizontal && !settings.vertical)
     motion.error("", "has no record; give horizontal, vertical or both (built_in is the program's own)");
   const std::vector<std::string> baselines{"none", "linear", "quadratic", "cubic"};

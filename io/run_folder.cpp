@@ -38,6 +38,10 @@ std::optional<std::int64_t> checkpoint_step(const std::string& name)
 
 constexpr std::string_view aside = ".unusable";
 
+/// How an identity is put together; in every identity.json, under this key.
+constexpr const char* format_key = "identity";
+constexpr std::string_view format = "seismpm-identity/2";
+
 bool is_state(const std::string& name)
 {
   return name == "final.h5" || checkpoint_step(name);
@@ -46,8 +50,8 @@ bool is_state(const std::string& name)
 /// Is this a name under which our programs write?
 bool is_output(const std::string& name)
 {
-  static constexpr std::array fixed = {"history.h5",   "frames.hdf.series", "log.txt",
-                                       "summary.json", "identity.json",     finish_mark};
+  static constexpr std::array fixed = {"history.h5",    "frames.hdf.series", "log.txt",    "summary.json",
+                                       "identity.json", finish_mark,         resolved_name};
   return std::ranges::find(fixed, name) != fixed.end() || is_state(name) ||
          number_in(name, "frame-", ".hdf") ||
          (name.ends_with(aside) && is_state(name.substr(0, name.size() - aside.size())));
@@ -95,7 +99,12 @@ RunFolder::Identity read_identity(const fs::path& path)
     std::ifstream file(path);
     RunFolder::Identity identity;
     const auto stored = nlohmann::ordered_json::parse(file);
-    for (const auto& [key, value] : stored.items()) identity.emplace_back(key, value.get<std::string>());
+    if (stored.value(format_key, "") != format)
+      taken(path.parent_path(),
+            "it holds a run of another version of this program, which told runs apart in another "
+            "way; finish it with that version, start anew with --fresh or choose another --out");
+    for (const auto& [key, value] : stored.items())
+      if (key != format_key) identity.emplace_back(key, value.get<std::string>());
     return identity;
   }
   catch (const nlohmann::json::exception&)
@@ -107,7 +116,7 @@ RunFolder::Identity read_identity(const fs::path& path)
 
 void write_identity(const fs::path& path, const RunFolder::Identity& identity)
 {
-  auto stored = nlohmann::ordered_json::object();
+  nlohmann::ordered_json stored{{format_key, format}};
   for (const auto& [key, value] : identity) stored[key] = value;
   write_text_atomically(path, stored.dump(1) + "\n");
 }
@@ -234,6 +243,7 @@ std::vector<std::string> RunFolder::identity_lines() const
 {
   std::vector<std::string> lines;
   for (const auto& [key, value] : identity_) lines.push_back(key + " = " + value);
+  std::ranges::sort(lines);
   return lines;
 }
 

@@ -12,6 +12,9 @@
 
 namespace mpm
 {
+/// The case of a run with every default written out, for people; a file of its folder.
+inline constexpr const char* resolved_name = "case-resolved.yaml";
+
 /// "checkpoint-000062500.h5"
 std::string checkpoint_name(std::int64_t step);
 
@@ -41,7 +44,7 @@ public:
   /// True when the folder already belonged to this run.
   bool resumed() const { return resumed_; }
 
-  /// The identity as lines `key = value`.
+  /// The identity as sorted lines `key = value`.
   std::vector<std::string> identity_lines() const;
 
   /// Paths of the states to go on from, best first: the final one, if there is one, then the checkpoints.

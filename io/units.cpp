@@ -5,6 +5,8 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
+#include <fmt/format.h>
 #include <numbers>
 #include <vector>
 
@@ -153,5 +155,13 @@ std::string number_text(double value)
   std::array<char, 32> buffer;
   const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
   return {buffer.data(), end};
+}
+
+std::string quantity_text(double value, Dimension dimension)
+{
+  const std::string_view unit = si_unit(dimension);
+  std::string number = fmt::format("{:.15g}", value); // 40000000, not 4e+07
+  if (std::strtod(number.c_str(), nullptr) != value) number = number_text(value);
+  return number + (unit.empty() ? "" : " " + std::string(unit));
 }
 } // namespace mpm

@@ -25,6 +25,8 @@ std::string_view name_of(Dimension dimension);
 
 /// The shortest text that reads back as the same number.
 std::string number_text(double value);
+/// The same with the SI unit of the dimension: "70000 Pa".
+std::string quantity_text(double value, Dimension dimension);
 /// "a, b or c".
 template <class Names>
 std::string either(const Names& names)

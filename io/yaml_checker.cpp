@@ -30,12 +30,6 @@ bool is_scalar(const YamlNode& node, std::string_view wanted, Problems& problems
   problems.add(node.place, node.path, std::string(kind_of(node)) + "; give " + std::string(wanted));
   return false;
 }
-
-std::string with_unit(double value, Dimension dimension)
-{
-  const std::string_view unit = si_unit(dimension);
-  return number_text(value) + (unit.empty() ? "" : " " + std::string(unit));
-}
 } // namespace
 
 bool Range::holds(double value) const
@@ -46,10 +40,10 @@ bool Range::holds(double value) const
 std::string Range::text(Dimension dimension) const
 {
   std::string text;
-  if (std::isfinite(lower)) text = (lower_allowed ? "at least " : "above ") + with_unit(lower, dimension);
+  if (std::isfinite(lower)) text = (lower_allowed ? "at least " : "above ") + quantity_text(lower, dimension);
   if (std::isfinite(upper))
     text += (text.empty() ? "" : " and ") + std::string(upper_allowed ? "at most " : "below ") +
-            with_unit(upper, dimension);
+            quantity_text(upper, dimension);
   return text;
 }
 
@@ -65,6 +59,7 @@ double read_number(const YamlNode& node, Dimension dimension, const Range& range
     problems.add(node.place, node.path, number.problem);
     return NAN;
   }
+  problems.settings.set(node.path, quantity_text(number.value, dimension));
   if (range.holds(number.value)) return number.value;
   problems.add(node.place, node.path, "is " + node.text + "; must be " + range.text(dimension));
   return NAN;
@@ -76,6 +71,7 @@ int read_integer(const YamlNode& node, int least, int most, Problems& problems)
   int value = 0;
   const char* end = node.text.data() + node.text.size();
   const auto result = std::from_chars(node.text.data(), end, value);
+  problems.settings.set(node.path, std::to_string(value));
   if (result.ec == std::errc{} && result.ptr == end && value >= least && value <= most) return value;
   problems.add(node.place, node.path,
                "is '" + node.text + "'; must be a whole number from " + std::to_string(least) + " to " +
@@ -87,12 +83,14 @@ std::string read_text(const YamlNode& node, Problems& problems)
 {
   if (!is_scalar(node, "a text", problems)) return {};
   if (node.text.empty()) problems.add(node.place, node.path, "is empty; give a text");
+  problems.settings.set(node.path, node.text);
   return node.text;
 }
 
 int read_choice(const YamlNode& node, const std::vector<std::string>& names, Problems& problems)
 {
   if (!is_scalar(node, either(names), problems)) return -1;
+  problems.settings.set(node.path, node.text);
   const auto found = std::find(names.begin(), names.end(), node.text);
   if (found != names.end()) return static_cast<int>(found - names.begin());
   problems.add(node.place, node.path,
@@ -109,6 +107,8 @@ std::vector<const YamlNode*> read_list(const YamlNode& node, std::string_view wh
     problems.add(node.place, node.path, std::string(kind_of(node)) + "; give a list " + std::string(what));
   else
     for (const YamlNode& child : node.children) elements.push_back(&child);
+  if (node.kind == YamlNode::Kind::list && elements.empty())
+    problems.settings.set(node.path, std::string(empty_list));
   return elements;
 }
 
@@ -124,7 +124,9 @@ Point read_point(const YamlNode& node, Problems& problems)
   return {NAN, NAN};
 }
 
-Section::Section(const YamlNode* node, Problems& problems) : node_(node), problems_(problems)
+Section::Section(const YamlNode* node, Problems& problems, std::string path)
+    : node_(node), problems_(problems), path_(node ? node->path : std::move(path)),
+      named_(node || !path_.empty())
 {
   if (!node || node->kind == YamlNode::Kind::map) return;
   problems.add(node->place, node->path, std::string(kind_of(*node)) + "; give a map of keys and values");
@@ -163,6 +165,16 @@ void Section::error(std::string_view key, const std::string& what) const
   problems_.add(child ? child->place : own, prefix + std::string(key), what);
 }
 
+std::string Section::path_of(std::string_view key) const
+{
+  return path_.empty() ? std::string(key) : path_ + "." + std::string(key);
+}
+
+void Section::resolve(std::string_view key, const std::string& value) const
+{
+  if (named_) problems_.settings.set(path_of(key), value);
+}
+
 double Section::number(std::string_view key, Dimension dimension, const Range& range)
 {
   const YamlNode* child = require(key);
@@ -172,13 +184,18 @@ double Section::number(std::string_view key, Dimension dimension, const Range& r
 double Section::number_or(double fallback, std::string_view key, Dimension dimension, const Range& range)
 {
   const YamlNode* child = find(key);
-  return child ? read_number(*child, dimension, range, problems_) : fallback;
+  if (child) return read_number(*child, dimension, range, problems_);
+  if (std::isfinite(fallback))
+    resolve(key, quantity_text(fallback, dimension)); // else there is no text for it
+  return fallback;
 }
 
 int Section::integer_or(int fallback, std::string_view key, int least, int most)
 {
   const YamlNode* child = find(key);
-  return child ? read_integer(*child, least, most, problems_) : fallback;
+  if (child) return read_integer(*child, least, most, problems_);
+  resolve(key, std::to_string(fallback));
+  return fallback;
 }
 
 std::string Section::text(std::string_view key)
@@ -190,7 +207,9 @@ std::string Section::text(std::string_view key)
 std::string Section::text_or(std::string fallback, std::string_view key)
 {
   const YamlNode* child = find(key);
-  return child ? read_text(*child, problems_) : fallback;
+  if (child) return read_text(*child, problems_);
+  resolve(key, fallback);
+  return fallback;
 }
 
 int Section::choice(std::string_view key, const std::vector<std::string>& names)
@@ -202,16 +221,18 @@ int Section::choice(std::string_view key, const std::vector<std::string>& names)
 int Section::choice_or(int fallback, std::string_view key, const std::vector<std::string>& names)
 {
   const YamlNode* child = find(key);
-  return child ? std::max(0, read_choice(*child, names, problems_)) : fallback;
+  if (child) return std::max(0, read_choice(*child, names, problems_));
+  resolve(key, names.at(fallback));
+  return fallback;
 }
 
 Section Section::section(std::string_view key)
 {
-  return Section(require(key), problems_);
+  return Section(require(key), problems_, path_of(key));
 }
 
 Section Section::optional_section(std::string_view key)
 {
-  return Section(find(key), problems_);
+  return Section(find(key), problems_, path_of(key));
 }
 } // namespace mpm

@@ -47,7 +47,8 @@ Point read_point(const YamlNode& node, Problems& problems);
 class Section
 {
 public:
-  Section(const YamlNode* node, Problems& problems);
+  /// `path` tells where an absent section would stand: its defaults are settings too.
+  Section(const YamlNode* node, Problems& problems, std::string path = {});
   Section(const Section&) = delete;
   Section& operator=(const Section&) = delete;
   ~Section();
@@ -56,6 +57,8 @@ public:
   const YamlNode* find(std::string_view key);    ///< null: absent
   const YamlNode* require(std::string_view key); ///< null: absent, and said so
   void error(std::string_view key, const std::string& what) const;
+  /// Notes the value that a key has after all, where it is not one of those that are read below.
+  void resolve(std::string_view key, const std::string& value) const;
 
   double number(std::string_view key, Dimension dimension, const Range& range = {});
   double number_or(double fallback, std::string_view key, Dimension dimension, const Range& range = {});
@@ -68,9 +71,13 @@ public:
   Section section(std::string_view key); ///< absent: said so
   Section optional_section(std::string_view key);
 
+  std::string path_of(std::string_view key) const;
+
 private:
   const YamlNode* node_;
   Problems& problems_;
+  std::string path_;
+  bool named_; ///< whether the path is known
   std::vector<std::string> known_;
 };
 } // namespace mpm

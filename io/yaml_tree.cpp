@@ -72,7 +72,9 @@ struct Builder
     const Place place = place_of(key.Mark());
     if (!key.IsScalar()) return problems.add(place, map.path, "has a key that is not a plain word");
     const std::string& name = key.Scalar();
-    const std::string path = map.path.empty() ? name : map.path + "." + name;
+    const std::string part =
+        map.path.starts_with("profiles.") ? name : path_part(name); // key paths themselves
+    const std::string path = map.path.empty() ? part : map.path + "." + part;
     if (const YamlNode* first = map.child(name))
       return problems.add(place, path,
                           "is given twice" +
@@ -88,15 +90,18 @@ struct Builder
   }
 };
 
-/// "a.b[0].c" and "a.b.0.c" as a, b, 0, c.
+/// "a.b[0].c" and "a.b.0.c" as a, b, 0, c; names in quotation marks are whole.
 std::vector<std::string> parts_of(std::string_view path)
 {
   std::vector<std::string> parts(1);
+  bool quoted = false;
   for (const char c : path)
   {
-    if (c == '.' || c == '[')
+    if (c == '"')
+      quoted = !quoted;
+    else if (!quoted && (c == '.' || c == '['))
       parts.emplace_back();
-    else if (c != ']')
+    else if (quoted || c != ']')
       parts.back() += c;
   }
   return parts;
@@ -124,7 +129,7 @@ YamlNode* step_down(YamlNode& node, const std::string& part, const Place& place,
     if (child.key == part) return &child;
   YamlNode& made = node.children.emplace_back();
   made.key = part;
-  made.path = node.path.empty() ? part : node.path + "." + part;
+  made.path = node.path.empty() ? path_part(part) : node.path + "." + path_part(part);
   made.place = made.key_place = place;
   return &made;
 }

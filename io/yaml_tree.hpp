@@ -1,6 +1,8 @@
 #pragma once
 // A YAML file as a plain tree that knows where each key and value stands, with the command line's overrides
-// put in. Nothing else includes yaml-cpp.
+// put in.
+
+#include "io/settings.hpp"
 
 #include <cstddef>
 #include <filesystem>
@@ -21,10 +23,13 @@ struct Place
   std::string text() const; ///< FILE:LINE:COLUMN
 };
 
-/// All that is wrong with an input, collected so that its user sees everything at once.
+/// What comes of reading an input: all that is wrong with it, collected so that its user sees everything at
+/// once, and all that it says, defaults written out.
 class Problems
 {
 public:
+  Settings settings;
+
   /// `path` is the key path; empty for the file as a whole.
   void add(const Place& place, const std::string& path, const std::string& what);
   /// A file named by the input that cannot be read.

@@ -78,6 +78,8 @@ void add_common_options(CLI::App& app, Options& options, Typed& typed)
   app.add_option("CASE", options.case_file, "case file (YAML), required")->type_name("");
   app.add_option("--out", options.out, "output folder")->type_name("DIR");
   app.add_flag("--check", options.check, "validate and predict the cost, on stdout; run nothing");
+  app.add_flag("--print-case", options.print_case,
+               "print the case with every default written out, on stdout; run nothing");
   app.add_option("--threads", typed.threads, "threads (default: OMP_NUM_THREADS, else all)")->type_name("N");
   app.add_option("--profile", options.profile, "apply one of the case's profiles; --set goes on top")
       ->type_name("NAME");
@@ -167,7 +169,8 @@ void check_overrides(const std::vector<std::string>& overrides)
 /// Options that ask for something together.
 void check_pairs(const CLI::App& app, const Typed& typed, const Options& options)
 {
-  if (options.out.empty() && !options.check) refuse("--out", "is missing: where shall the results go?");
+  if (options.out.empty() && !options.check && !options.print_case)
+    refuse("--out", "is missing: where shall the results go?");
   if (typed.quiet && typed.verbose) refuse("--quiet", "contradicts --verbose; leave one of them");
   if (!options.seismic()) return;
   for (const auto& [name, file] :

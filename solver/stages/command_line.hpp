@@ -26,7 +26,7 @@ struct Options
   std::vector<std::string> overrides;
   int threads = 0;     ///< 0: as many as the machine has
   double max_wall = 0; ///< s, 0: no limit
-  bool check = false, fresh = false;
+  bool check = false, print_case = false, fresh = false;
   Verbosity verbosity = Verbosity::normal;
 
   bool seismic() const { return program == "mpm-seismic"; }

@@ -281,12 +281,6 @@ MotionMeasures measures_applied(const GroundMotion& motion, const Fade& fade, do
   return measure(samples.velocity, samples.acceleration, samples.dt, 1 / motion.report.share);
 }
 
-bool makes_motion(const std::string& key)
-{
-  return key == "seismic.duration" ||
-         (key.starts_with("seismic.motion.") && !key.starts_with("seismic.motion.end"));
-}
-
 void write_motion(h5::File& file, const IncomingWave& wave, double step, double until)
 {
   if (const double common = common_step(wave); common > 0) step = common;

@@ -31,9 +31,6 @@ Fade planned_fade(const MotionSettings& settings);
 /// Measures of a motion as applied until `until` s; of the kind of its record, as those of MotionReport.
 MotionMeasures measures_applied(const GroundMotion& motion, const Fade& fade, double until);
 
-/// Whether a key of the case is part of the identity as what it makes of the motion, not as its text.
-bool makes_motion(const std::string& key);
-
 /// Writes `/motion` of the history: what the wave brings from 0 to `until` s, evenly sampled so finely that
 /// no sample of a record is left out; `step` s without a record.
 void write_motion(h5::File& file, const IncomingWave& wave, double step, double until);

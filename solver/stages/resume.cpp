@@ -80,6 +80,7 @@ h5::File Session::open_state(const std::filesystem::path& path)
 
 bool Session::resume(const std::function<void(const h5::File&)>& load)
 {
+  write_text_atomically(*folder / resolved_name, resolved_case());
   std::vector<std::filesystem::path> unusable;
   std::string lost; // a result file that a state needs beside it
   bool found = false;

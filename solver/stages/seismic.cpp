@@ -344,11 +344,7 @@ int run_seismic(Session& session)
   if (options.from.empty()) session.log.info("no gravity: starts from a stress-free state");
 
   // 2. The folder: ours, finished, or to be gone on with.
-  RunFolder::Identity identity{{"stage", "seismic"}};
-  for (const auto& setting : settings_with_digests(scene))
-    if (!makes_motion(setting.first) && !setting.first.starts_with("output.checkpoint")) // when, not what
-      identity.push_back(setting);
-  identity.push_back({"seismic.duration", number_text(scene.seismic.duration) + " s"});
+  RunFolder::Identity identity = seismic_settings(scene);
   identity.insert(identity.end(), motion.identity.begin(), motion.identity.end());
   if (!from.empty()) identity.push_back({"from", from});
   session.open_folder(identity);

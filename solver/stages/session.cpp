@@ -78,6 +78,7 @@ void Session::write_checkpoint(const std::string& name, std::string_view stage, 
                           file.attribute("path", scene.path.string(), "case");
                           file.attribute("profile", scene.profile, "case");
                           file.write_strings("overrides", scene.overrides);
+                          file.write_text("case_resolved", resolved_case());
                           file.write_strings("ground", ground_settings(scene));
                           file.write_strings("identity", folder->identity_lines());
                           file.write_strings("warnings", log.warnings());
@@ -149,7 +150,7 @@ void Session::finish(std::string_view stage, int exit, const Model& model, const
   write_text_atomically(*folder / "summary.json", summary.dump(2) + "\n");
   if (exit == exit_code::done)
   {
-    results.insert(results.end(), {"final.h5", "summary.json", "identity.json"});
+    results.insert(results.end(), {"final.h5", "summary.json", "identity.json", resolved_name});
     write_finish_mark(folder->path(), results);
     folder->prune(0);
   }
@@ -157,28 +158,6 @@ void Session::finish(std::string_view stage, int exit, const Model& model, const
            duration_text(wall_seconds()), clock.step - first_step_,
            summary["ns_per_particle_step"].get<double>());
   log.info("of it {} ns", phases);
-}
-
-std::vector<std::pair<std::string, std::string>> settings_with_digests(const Case& scene)
-{
-  std::vector<std::pair<std::string, std::string>> result;
-  for (const auto& [key, value] : scene.settings)
-  {
-    result.push_back({key, value});
-    if (key.starts_with("surfaces.") && key.ends_with(".file"))
-      result.push_back({key + " (sha256)", sha256_file(scene.path.parent_path() / value)});
-  }
-  return result;
-}
-
-std::vector<std::string> ground_settings(const Case& scene)
-{
-  std::vector<std::string> lines;
-  for (const auto& [key, value] : settings_with_digests(scene))
-    for (const std::string_view part : {"grid.", "domain.", "surfaces.", "regions", "materials.",
-                                        "static.gravity", "seismic.base.kind", "seismic.sides"})
-      if (key.starts_with(part)) lines.push_back(key + " = " + value);
-  return lines;
 }
 
 void check_step(Session& session, const Model& model, double safety, Clock& clock)
@@ -207,6 +186,7 @@ int run_program(int argc, char** argv, const std::string& name, int (*stage)(Ses
     Session session(options);
     try
     {
+      if (options.print_case) return std::cout << session.resolved_case() << std::flush, exit_code::done;
       return stage(session);
     }
     catch (const Error& error)

@@ -52,9 +52,10 @@ public:
   /// Whether the folder holds the finished run, with all its files whole; says so. What is not whole is told,
   /// and the run is no longer finished.
   bool finished_already();
-  /// Goes on from the best state in the folder: `load` takes it from the file, or throws. One that is damaged
-  /// or cannot be is told and passed over for an older one. False: there is none, the run starts from the
-  /// beginning. `Error` folder_taken when all that a state lacks is a result file that goes with it.
+  /// Begins or goes on with the folder's run, from the best state in it: `load` takes it from the file, or
+  /// throws. One that is damaged or cannot be is told and passed over for an older one. False: there is none,
+  /// the run starts from the beginning. `Error` folder_taken when all that a state lacks is a result file
+  /// that goes with it.
   bool resume(const std::function<void(const h5::File&)>& load);
   /// Whether the state that was resumed is the run's last.
   bool at_end() const { return at_end_; }
@@ -62,6 +63,8 @@ public:
   /// named in `results` beside those that every run has.
   void finish(std::string_view stage, int exit, const Model& model, const Clock& clock, nlohmann::json more,
               std::vector<std::string> results = {});
+  /// The case with every default written out, and the records of the command line in it, as YAML.
+  std::string resolved_case() const;
   Provenance provenance() const;
   double wall_seconds() const;
   void loop_begins(std::int64_t step, const Model& model);
@@ -94,10 +97,11 @@ int run_program(int argc, char** argv, const std::string& name, int (*stage)(Ses
 /// such a state.
 void load_model(const h5::File& file, Model& model, Clock& clock, double at_most);
 
-/// The case's settings, each named file followed by the digest of what it holds.
-std::vector<std::pair<std::string, std::string>> settings_with_digests(const Case& scene);
+/// What of a case makes a run of a stage that run and no other, defaults written out.
+RunFolder::Identity static_settings(const Case& scene);
+RunFolder::Identity seismic_settings(const Case& scene);
 
-/// The case's keys that shape the ground itself, as `key = value` lines: what static and seismic stage must
-/// share.
+/// The settings that shape the ground itself, as sorted lines `key = value`: what static and seismic stage
+/// must share.
 std::vector<std::string> ground_settings(const Case& scene);
 } // namespace mpm

@@ -46,14 +46,7 @@ int run_static(Session& session)
   }
 
   // 2. The folder: ours, finished, or to be gone on with.
-  RunFolder::Identity identity{{"stage", "static"}};
-  for (const auto& [key, value] : settings_with_digests(scene))
-  {
-    const bool of_the_shaking =
-        key.starts_with("seismic.motion") || key == "seismic.duration" || key.starts_with("time_step");
-    if (!of_the_shaking && !key.starts_with("output")) identity.push_back({key, value});
-  }
-  session.open_folder(identity);
+  session.open_folder(static_settings(scene));
   if (session.finished_already()) return exit_code::done;
   std::optional<Relaxation> relaxation;
   const auto load = [&](const h5::File& file)

@@ -115,9 +115,9 @@ TEST_CASE("Overrides win, are recorded and are checked under their own name", "[
   CHECK(scene.output.gauges.points.at(0).y == 10);
   CHECK(scene.overrides.size() == 5);
   using Setting = std::pair<std::string, std::string>;
-  CHECK(scene.settings.at(1) == Setting{"grid.spacing", "0.5 m"});
-  CHECK(scene.settings.at(3) == Setting{"domain.x[1]", "50 m"});
-  CHECK(scene.settings.back() == Setting{"output.gauges.points.top[1]", "10 m"});
+  for (const Setting& setting : {Setting{"grid.spacing", "0.5 m"}, Setting{"domain.x[1]", "50 m"},
+                                 Setting{"output.gauges.points.top[1]", "10 m"}})
+    CHECK(std::count(scene.settings.begin(), scene.settings.end(), setting) == 1);
 
   CHECK(refusal(small, {"grid.spacng=1 m"}) ==
         "65\n--set grid.spacng=1 m: grid.spacng: unknown key 'spacng'; allowed: spacing, "

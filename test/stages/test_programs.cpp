@@ -62,7 +62,7 @@ TEST_CASE("a profile, --set and a case that says the same itself are one run", "
   CHECK_THAT(same.said, Contains("finished already"));
   const Ending plain = bench.run_static("static");
   CHECK(plain.code == 73);
-  CHECK_THAT(plain.said, Contains("materials.clay.young_modulus is 40 MPa, but 30 MPa"));
+  CHECK_THAT(plain.said, Contains("materials.clay.young_modulus is 40000000 Pa, but 30000000 Pa"));
   CHECK(open_complete(bench / "static/final.h5").attribute_string("profile", "case") == "soft");
   CHECK_THAT(contents(bench / "static/summary.json"), Contains("\"profile\": \"soft\""));
   REQUIRE(bench.run_seismic("a", {"--profile", "soft", "--set", "seismic.duration=0.1 s"}).code == 0);

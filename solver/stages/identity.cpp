@@ -1,0 +1,120 @@
+// What makes a run this run and no other: its settings with every default written out. Left out is what
+// changes no result, or is told by something else that is in.
+
+#include "io/units.hpp"
+#include "solver/stages/session.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+
+namespace mpm
+{
+namespace
+{
+constexpr std::string_view horizontal = "seismic.motion.horizontal", vertical = "seismic.motion.vertical";
+
+bool shapes_ground(std::string_view key)
+{
+  return std::ranges::any_of(std::array<std::string_view, 6>{"grid.", "domain.", "surfaces.", "regions",
+                                                             "materials.", "static.gravity"},
+                             [&](std::string_view part) { return key.starts_with(part); });
+}
+
+/// The form of the file and what people call the case.
+bool is_label(std::string_view key)
+{
+  return key == "schema" || key == "name";
+}
+
+/// Where a record comes from and how it is written: the motion's digest tells what was made of it.
+bool tells_record(std::string_view key)
+{
+  return key.starts_with(horizontal) || key.starts_with(vertical);
+}
+
+/// A number to 15 digits: 70 cm and 0.7 m are one length, though the one is 0.7000000000000001 m in binary.
+std::string rounded(const std::string& value)
+{
+  double number = 0;
+  const auto [end, failure] = std::from_chars(value.data(), value.data() + value.size(), number);
+  const std::string rest(end, value.data() + value.size());
+  return failure == std::errc{} && (rest.empty() || rest[0] == ' ') ? fmt::format("{:.15g}{}", number, rest)
+                                                                    : value;
+}
+
+/// The kinds of base and sides, which the case need not give.
+RunFolder::Identity edges(const Case& scene)
+{
+  static constexpr std::array bases{"compliant", "fixed"};
+  static constexpr std::array sides{"free_field", "quiet", "roller"};
+  return {{"seismic.base.kind", bases.at(static_cast<std::size_t>(scene.seismic.base))},
+          {"seismic.sides.kind", sides.at(static_cast<std::size_t>(scene.seismic.sides))}};
+}
+} // namespace
+
+RunFolder::Identity static_settings(const Case& scene)
+{
+  RunFolder::Identity identity{{"stage", "static"}};
+  for (const auto& [key, value] : scene.settings)
+  {
+    const bool of_the_shaking = key.starts_with("seismic.") || key.starts_with("time_step.");
+    if (!is_label(key) && !of_the_shaking && !key.starts_with("output."))
+      identity.emplace_back(key, rounded(value));
+  }
+  for (auto& edge : edges(scene)) identity.push_back(std::move(edge)); // they make the columns
+  return identity;
+}
+
+RunFolder::Identity seismic_settings(const Case& scene)
+{
+  RunFolder::Identity identity{{"stage", "seismic"}};
+  for (const auto& [key, value] : scene.settings)
+  {
+    const bool when_not_what = key.starts_with("output.checkpoint.");
+    const bool of_the_state = key.starts_with("static.") && key != "static.gravity"; // its digest tells it
+    if (is_label(key) || when_not_what || of_the_state || tells_record(key)) continue;
+    const bool counts = key == "seismic.duration"; // it may have been told otherwise
+    identity.emplace_back(key,
+                          rounded(counts ? quantity_text(scene.seismic.duration, Dimension::time) : value));
+  }
+  return identity;
+}
+
+std::vector<std::string> ground_settings(const Case& scene)
+{
+  std::vector<std::string> lines;
+  for (const auto& [key, value] : scene.settings)
+    if (shapes_ground(key)) lines.push_back(key + " = " + rounded(value));
+  for (const auto& [key, value] : edges(scene)) lines.push_back(key + " = " + value);
+  std::ranges::sort(lines);
+  return lines;
+}
+
+std::string Session::resolved_case() const
+{
+  Settings settings;
+  for (const auto& [key, value] : scene.settings) settings.set(key, value);
+  for (const auto& [key, file] :
+       {std::pair{horizontal, options.motion}, std::pair{vertical, options.vertical}})
+  {
+    const std::string record(key);
+    if (!file.empty())
+    {
+      for (const auto& [path, value] : scene.settings)
+        if (path.starts_with(record)) settings.drop(path);
+      settings.set(record + ".file", std::filesystem::absolute(file).string());
+      if (std::isfinite(options.record_dt))
+        settings.set(record + ".dt", quantity_text(options.record_dt, Dimension::time));
+      if (!options.record_unit.empty()) settings.set(record + ".unit", options.record_unit);
+      const std::string& component = key == vertical ? options.vertical_component : options.record_component;
+      if (!component.empty()) settings.set(record + ".component", component);
+      settings.set(record + ".scale", "1");
+    }
+    for (const auto& [path, value] : settings.entries())
+      if (path == record + ".scale") settings.set(path, number_text(std::stod(value) * options.scale));
+  }
+  return fmt::format("# every default written out by {} {}\n", options.program, provenance().version) +
+         to_yaml(settings.entries());
+}
+} // namespace mpm
