@@ -7,7 +7,8 @@ namespace mpm
 {
 namespace
 {
-constexpr double margin = 1; // cells beyond an edge at which ground has left
+constexpr double own = 4;    // cells from an edge within which ground is its own
+constexpr double margin = 1; // cells beyond its own edge at which ground has left
 
 /// A side as it stands now: x over y, from the base upwards; the last point holds above.
 struct SideLine
@@ -27,7 +28,6 @@ struct SideLine
     return edge == Edge::right ? *std::min_element(x.begin(), x.end())
                                : *std::max_element(x.begin(), x.end());
   }
-  bool passed(double px, double py, double far) const { return outward() * (px - at(py)) > far; }
 };
 
 /// Follows the faces of a side upwards as long as they hang together.
@@ -48,13 +48,20 @@ SideLine line_of(const FreeFieldSide& side, const Domain& domain, double size)
   return line;
 }
 
+/// Where a point is and was in the undeformed scene, m.
+struct Path
+{
+  double x, y, reference_x, reference_y;
+};
+
 /// The edges of the model as they stand now.
 struct Edges
 {
+  const Case& scene;
   std::vector<SideLine> sides;
   double base = -INFINITY; ///< y, m
 
-  Edges(const Model& model, const Case& scene)
+  Edges(const Model& model, const Case& of) : scene(of)
   {
     const Domain& main = *model.main;
     const Particles& p = main.particles;
@@ -76,19 +83,24 @@ struct Edges
       {
         const bool left = side->edge() == Edge::left;
         line.y.push_back(scene.domain.bottom);
-        line.x.push_back((left ? scene.domain.left : scene.domain.right) +
+        line.x.push_back(position(side->edge()) +
                          (moved.empty() ? 0 : (left ? moved.front() : moved.back())[0]));
       }
       sides.push_back(std::move(line));
     }
   }
 
-  /// The edge that a point (m) has passed by more than `far` m.
-  std::optional<Edge> passed(double x, double y, double far) const
+  double position(Edge edge) const { return edge == Edge::left ? scene.domain.left : scene.domain.right; }
+
+  /// The edge that a point has passed.
+  std::optional<Edge> passed(const Path& p) const
   {
+    const double h = scene.grid.spacing;
+    const auto grace = [h](double from_edge) { return std::fabs(from_edge) <= own * h ? margin * h : 0; };
     for (const SideLine& side : sides)
-      if (side.passed(x, y, far)) return side.edge;
-    if (y < base - far) return Edge::bottom;
+      if (side.outward() * (p.x - side.at(p.y)) > grace(p.reference_x - position(side.edge)))
+        return side.edge;
+    if (p.y < base - grace(p.reference_y - scene.domain.bottom)) return Edge::bottom;
     return {};
   }
 };
@@ -127,14 +139,14 @@ std::vector<Leaving> Departures::find() const
 {
   const Domain& main = *model_.main;
   const Edges edges(model_, session_.scene);
-  const double far = margin * main.grid.spacing;
+  const Particles& p = main.particles;
   std::vector<Leaving> leaving;
   for (const Home& home : main.homes)
   {
     if (!may_have_passed(edges, main.grid, home.block)) continue;
     for (const Range& range : home.ranges)
       for (int k = range.begin; k < range.end; ++k)
-        if (const auto edge = edges.passed(main.particles.x[k], main.particles.y[k], far))
+        if (const auto edge = edges.passed({p.x[k], p.y[k], p.reference_x[k], p.reference_y[k]}))
           leaving.push_back({k, *edge});
   }
   std::sort(leaving.begin(), leaving.end(),
@@ -163,7 +175,7 @@ void Departures::lose_gauges(double time)
   for (std::size_t k = 0; k < main.tracers.size(); ++k)
   {
     Tracer& t = main.tracers[k];
-    const auto edge = edges.passed(t.x, t.y, margin * main.grid.spacing);
+    const auto edge = edges.passed({t.x, t.y, t.reference_x, t.reference_y});
     if (!edge) continue;
     t.x = t.y = t.velocity_x = t.velocity_y = NAN;
     session_.log.warn("gauge {}: its ground passed the {} at t = {:.2f} s; from then on it has no values",

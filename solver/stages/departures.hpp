@@ -6,12 +6,14 @@ namespace mpm
 {
 /// Takes ground that has passed a side or the base out of the model, and tells of it.
 ///
-/// Beyond the model nothing carries ground. Debris that runs over a side falls without end, and takes forces
-/// from what stands for the ground beyond: images (and ghosts) fill four cells there and balance the nodes up
-/// to two cells out, so that ground is carried as it should be while it reaches no others, that is to one
-/// cell out. Ground further out has left. A side moves: it is where its own faces are, from the base upwards,
-/// as far as each is within a particle spacing of the one below; what lies above has been sheared off, and
-/// the side stands where the last of them is. Mirrored walls (roller sides, a fixed base) let nothing pass.
+/// Beyond the model nothing carries ground: debris that runs over a side falls without end, and takes forces
+/// from what stands for the ground beyond, at nodes that hardly have mass. So it has left as soon as it has
+/// passed. Ground from within four cells of an edge is the edge's own: it deforms with it, and images (and
+/// ghosts), which fill four cells beyond, balance the nodes up to two cells out, which it reaches from no
+/// more than one cell out. That far it may go. A side moves: it is where its own faces are, from the base
+/// upwards, as far as each is within a particle spacing of the one below; what lies above has been sheared
+/// off, and the side stands where the last of them is. Mirrored walls (roller sides, a fixed base) let
+/// nothing pass.
 class Departures
 {
 public:
