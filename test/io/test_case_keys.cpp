@@ -230,3 +230,20 @@ TEST_CASE("A word that a material does not know is refused with those it knows",
   CHECK_THAT(refusal(replaced(landslide, "residual: 0 kPa}", "residual: 990 kPa}")),
              Contains("materials.mass.cohesion.residual: is above cohesion.peak"));
 }
+
+TEST_CASE("a record's format, unit and component are keys of the case", "[io]")
+{
+  const std::string record = small + R"(seismic:
+  duration: 1 s
+  motion:
+    recorded_as: outcrop
+    horizontal: {file: a.dat, format: cwb, unit: CM/SEC/SEC, component: N}
+)";
+  const RecordSource source = load(record).seismic.motion.horizontal->record;
+  CHECK(source.format == "cwb");
+  CHECK(source.unit == "CM/SEC/SEC");
+  CHECK(source.component == "N");
+  CHECK_THAT(refusal(replaced(record, "CM/SEC/SEC", "cubits")),
+             Contains("unit: is 'cubits'; must be a unit of records"));
+  CHECK_THAT(refusal(replaced(record, "cwb", "cbw")), Contains("geonet or bhrc"));
+}

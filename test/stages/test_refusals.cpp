@@ -234,3 +234,38 @@ TEST_CASE("a refused static state leaves the output folder free for the right on
   REQUIRE(bench.run_static("static", {"--fresh"}).code == 0);
   CHECK(bench.run_seismic("a", {"--max-wall", "0.1 s"}).code == 75);
 }
+
+TEST_CASE("options of a record want a record on the command line, and several components one of them",
+          "[stages]")
+{
+  const Bench bench;
+  bench.make_static();
+  for (std::vector<std::string> options : {std::vector<std::string>{"--record-unit", "g"},
+                                           {"--record-dt", "0.01"},
+                                           {"--record-component", "NS"},
+                                           {"--motion", bench.path("a.csv"), "--vertical-component", "UD"}})
+  {
+    const Ending ending = bench.run_seismic("out", options);
+    CHECK(ending.code == 64);
+    CHECK_THAT(ending.said, Contains("belongs to a record on the command line"));
+  }
+  std::string text = "time (s), NS (gal), UD (gal)\n";
+  for (int i = 0; i < 200; ++i)
+    text += std::to_string(i * 0.01) + ", " + std::to_string(i % 2 ? 0.5 : -0.5) + ", " +
+            std::to_string(i % 4 - 1.5) + "\n";
+  put(bench / "a.csv", text);
+  const std::string file = bench.path("a.csv");
+  const Ending unnamed = bench.run_seismic("out", {"--motion", file, "--check"});
+  CHECK(unnamed.code == 65);
+  CHECK_THAT(unnamed.said, Contains("its components are NS (gal), UD (gal); give one of them"));
+  const Ending named = bench.run_seismic("out", {"--motion", file, "--record-component", "NS", "--vertical",
+                                                 file, "--vertical-component", "UD", "--check"});
+  CHECK(named.code == 0);
+  CHECK_THAT(named.said, Contains("horizontal motion: component NS (gal)") &&
+                             Contains("vertical motion: component UD (gal)"));
+  CHECK_THAT(
+      bench
+          .run_seismic("out", {"--motion", file, "--record-component", "NS", "--record-unit", "g", "--check"})
+          .said,
+      Contains("the file is in gal and the case says g"));
+}
