@@ -19,6 +19,9 @@ std::string reason()
   };
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, innermost, &text);
   H5Eclear2(H5E_DEFAULT);
+  // The filters are checksums and, before them, compression; HDF5 1.14 does not name the one that fails.
+  if (text.find("filter returned failure") != std::string::npos)
+    text = "a checksum or compressed data do not fit (" + text + ")";
   return text.empty() ? "HDF5 gives no reason" : text;
 }
 } // namespace

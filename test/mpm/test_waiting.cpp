@@ -12,9 +12,10 @@ namespace
 /// What the runtime says of its settings when mpm-static starts, environment given.
 std::string runtime_settings(const std::string& environment)
 {
+  // --check, as libomp starts with the first parallel loop.
   const std::string command =
       "env -u OMP_WAIT_POLICY -u GOMP_SPINCOUNT -u KMP_BLOCKTIME OMP_DISPLAY_ENV=verbose " + environment +
-      " " + BINARY_DIR "/mpm-static --version 2>&1";
+      " " BINARY_DIR "/mpm-static " SOURCE_DIR "/cases/slope/case.yaml --profile quick --check 2>&1";
   FILE* pipe = popen(command.c_str(), "r");
   REQUIRE(pipe);
   std::string said;
@@ -30,8 +31,7 @@ TEST_CASE("threads spin briefly where the user does not say how they wait", "[mp
   const std::string usual = runtime_settings("");
   INFO(usual);
   CHECK((usual.find("GOMP_SPINCOUNT = '1000'") != std::string::npos ||
-         usual.find("KMP_BLOCKTIME='0'") != std::string::npos ||
-         usual.find("KMP_BLOCKTIME=0") != std::string::npos));
+         usual.find("KMP_BLOCKTIME='0'") != std::string::npos));
   for (const std::string wish : {"OMP_WAIT_POLICY=active", "GOMP_SPINCOUNT=77", "KMP_BLOCKTIME=5"})
     CHECK_THAT(runtime_settings(wish),
                !Contains("GOMP_SPINCOUNT = '1000'") && !Contains("KMP_BLOCKTIME='0'"));
