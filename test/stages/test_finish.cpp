@@ -41,7 +41,7 @@ struct Stopped : Finished
   {
     const Arguments arguments = seismic_arguments("stopped", brief);
     Arguments often = arguments;
-    often.insert(often.end(), {"--set", "output.checkpoint.every=0.01 s"});
+    often.insert(often.end(), {"--set", "output.checkpoint.every=1 ms"});
     kill_after_checkpoints(*this, "mpm-seismic", often, *this / "stopped", 2);
     REQUIRE(checkpoints(*this / "stopped").size() == 2);
   }
