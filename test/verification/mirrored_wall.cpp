@@ -114,7 +114,7 @@ double difference(double h, const std::vector<Wall>& walls, int to_x, int to_y)
     ++compared;
     const int k = g.node(at.first, at.second);
     if (k < 0) throw std::runtime_error("mirrored_wall: a node that images reach does not exist");
-    const auto add = [&](double Node::*member, double value)
+    const auto add = [&, &node = node](double Node::*member, double value)
     {
       scale.*member = std::max(scale.*member, std::fabs(node.*member));
       error.*member = std::max(error.*member, std::fabs(node.*member - value));
