@@ -112,6 +112,7 @@ struct MotionSource
 /// `seismic.motion`.
 struct MotionSettings
 {
+  bool given = false; ///< whether the case has this section
   std::optional<MotionSource> horizontal = MotionSource{};
   std::optional<MotionSource> vertical;
   MotionProcessing processing; ///< `scale` is each source's own

@@ -113,14 +113,14 @@ void warn_of_settings(Case& scene)
                                          "{:.3g} s: gravity comes as a blow, under "
                                          "which ground yields that would stand; is it in s?",
                                          scene.statics.ramp, period));
-  if (const double t = scene.seismic.duration; t != 0)
-    warn_outside(scene, "seismic.duration", t, 0.1, 3600, "s", "is it in s, min or h?");
-  if (scene.seismic.duration == 0) return;
-  const double frames = scene.seismic.duration / scene.output.frames.every;
+  const double t = scene.seismic.duration;
+  if (!(t > 0)) return; // it has none, or goes with its record, which is judged itself
+  warn_outside(scene, "seismic.duration", t, 0.1, 3600, "s", "is it in s, min or h?");
+  const double frames = t / scene.output.frames.every;
   if (frames > 10000)
     scene.warnings.push_back(fmt::format(
         "output.frames.every: makes {:.3g} frames in {:.4g} s, where less than 1000 are usual; is it in s?",
-        frames, scene.seismic.duration));
+        frames, t));
 }
 
 /// Greatest weight upon a material in level columns anywhere (its own included), Pa; height of the ground, m.

@@ -140,6 +140,7 @@ void read_duration(Section& section, SeismicSettings& settings, Problems& proble
 MotionSettings read_motion(Section motion, const std::filesystem::path& folder, Problems& problems)
 {
   MotionSettings settings;
+  settings.given = motion.given();
   if (motion.given())
   {
     settings.processing.recorded_as = read_recorded_as(motion, problems);

@@ -115,7 +115,7 @@ CaseSize expected_size(const Case& scene)
 
 double memory_needed(const CaseSize& size, const Case& scene)
 {
-  const double frame = scene.seismic.duration > 0 ? 2 * frame_bytes(scene) : 0;
+  const double frame = scene.seismic.duration != 0 ? 2 * frame_bytes(scene) : 0;
   const double particle =
       held + 8 * history_variables(scene) + written * std::max(frame, checkpoint_bytes(1, scene));
   return base + size.particles * particle + size.nodes * node_bytes + size.columns * column_bytes +

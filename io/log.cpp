@@ -98,7 +98,8 @@ void Log::open(const std::filesystem::path& file)
 void Log::say(Level level, const std::string& text)
 {
   const char* prefix = level == Level::warning ? "warning: " : level == Level::error ? "error: " : "";
-  if (level == Level::warning) warnings_.push_back(text);
+  const bool known = std::find(warnings_.begin(), warnings_.end(), text) != warnings_.end();
+  if (level == Level::warning && !known) warnings_.push_back(text);
   const Level least = verbosity_ == Verbosity::verbose  ? Level::detail
                       : verbosity_ == Verbosity::normal ? Level::info
                                                         : Level::warning;

@@ -65,7 +65,7 @@ public:
   {
     say(Level::error, fmt::format(format, std::forward<Args>(args)...));
   }
-  /// All warnings so far, for the summary.
+  /// All warnings so far, each once, for the summary.
   const std::vector<std::string>& warnings() const { return warnings_; }
   /// Puts the warnings of the run's earlier part, which the log file has already, before this part's.
   void recall(const std::vector<std::string>& earlier);

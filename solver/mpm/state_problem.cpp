@@ -38,6 +38,21 @@ std::string place_particles(Domain& domain, std::size_t total)
   return {};
 }
 
+/// A gauge has place and velocity, or has left with its ground and has neither.
+std::string tracers_problem(const Domain& domain)
+{
+  for (const Tracer& t : domain.tracers)
+  {
+    const bool here = std::isfinite(t.x) && std::isfinite(t.y) && std::isfinite(t.velocity_x) &&
+                      std::isfinite(t.velocity_y);
+    const bool gone =
+        std::isnan(t.x) && std::isnan(t.y) && std::isnan(t.velocity_x) && std::isnan(t.velocity_y);
+    if (!(here || gone) || !std::isfinite(t.reference_x) || !std::isfinite(t.reference_y))
+      return "a gauge has no place";
+  }
+  return {};
+}
+
 /// Particles have left once, and are not there any more.
 std::string departed_problem(const Domain& domain)
 {
@@ -140,6 +155,7 @@ std::string state_problem(Domain& domain, const std::vector<double>& masses)
 {
   if (std::string problem = place_particles(domain, masses.size()); !problem.empty()) return problem;
   if (std::string problem = departed_problem(domain); !problem.empty()) return problem;
+  if (std::string problem = tracers_problem(domain); !problem.empty()) return problem;
   if (std::string problem = fields_problem(domain, masses); !problem.empty()) return problem;
   if (std::string problem = homes_problem(domain); !problem.empty()) return problem;
   for (const auto& boundary : domain.boundaries)

@@ -183,9 +183,8 @@ std::optional<GroundMotion> load(Session& session, const std::string& component,
 bool motion_given(const Session& session)
 {
   const Options& options = session.options;
-  const auto of_motion = [](const auto& setting) { return setting.first.starts_with("seismic.motion"); };
   return !options.motion.empty() || !options.vertical.empty() || options.scale != 1 ||
-         std::ranges::any_of(session.scene.settings, of_motion);
+         session.scene.seismic.motion.given;
 }
 
 /// Refuses a record whose step is so small that a run cannot hold what it applies.

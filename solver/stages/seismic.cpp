@@ -317,17 +317,17 @@ int run_seismic(Session& session)
   Model model;
   Clock clock;
   std::string from;
-  bool as_new = false;
+  bool as_new = false, told = false;
   const auto begin = [&] // unless nothing has been done to it yet
   {
     if (std::exchange(as_new, true)) return;
     model = make_model(scene);
+    if (!std::exchange(told, true)) report_filling(session.log, scene, model.filling);
     clock = {};
     clock.dt = choose_step(scene, *model.main);
     if (!options.from.empty()) from = load_static_state(session, model);
   };
   begin();
-  report_filling(session.log, scene, model.filling);
   if (scene.seismic.duration / clock.dt > most_steps)
     throw Error(
         exit_code::bad_input,

@@ -247,7 +247,7 @@ TEST_CASE("options of a record want a record on the command line, and several co
   {
     const Ending ending = bench.run_seismic("out", options);
     CHECK(ending.code == 64);
-    CHECK_THAT(ending.said, Contains("belongs to a record on the command line"));
+    CHECK_THAT(ending.said, Contains("applies to a record of "));
   }
   std::string text = "time (s), NS (gal), UD (gal)\n";
   for (int i = 0; i < 200; ++i)
