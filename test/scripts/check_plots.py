@@ -43,7 +43,8 @@ def write_history(folder, end):
         file["gauges/gauge"] = NAMES
         for field in ("displacement", "velocity"):
             file[f"gauges/{field}"] = np.tile(wave[:, :, None], (1, len(NAMES), 2))
-        file["motion/upgoing_velocity"] = np.hstack([wave, 0 * wave])
+        for name in ("velocity", "acceleration"):
+            file[f"motion/upgoing_{name}"] = np.hstack([wave, 0 * wave])
         for name in ("moved_area", "peak_velocity"):
             file[f"slide/{name}"] = time
         for name in ("centre_of_mass_displacement", "centre_of_mass_velocity"):
@@ -59,7 +60,8 @@ def summary(end, code):
     peak = {"value": 1.0, "time": 1.0, "place": [1.0, 2.0]}
     change = {"height": 1.0, "x": 2.0}
     waves = {kind: {"speed": 100.0, "carried_to": 5.0} for kind in "SP"}
-    return {"name": NAMES[0], "motion": "$record_$", "stage": "seismic", "exit": code, "time": end, "steps": 100, "dt": 0.1,
+    applied = dict.fromkeys(("pga", "pga_time", "pgv", "pgd", "arias", "d5_95"), 1.0)
+    return {"name": NAMES[0], "motion_title": "$record_$", "motion": {"horizontal": {"applied": applied}}, "stage": "seismic", "exit": code, "time": end, "steps": 100, "dt": 0.1,
             "particles": 72, "threads": 1, "wall_seconds": 1.0, "warnings": NAMES, "case_sha256": "0" * 64,
             "profile": NAMES[1], "version": "1", "git": "$", "digests": {"motion.$a$": "f" * 64},
             "resolution": {"spacing": 1.0, "particles_per_cell": 1, "materials": {name: waves for name in NAMES}},
