@@ -38,14 +38,14 @@ def main():
         return 66
     out.mkdir(parents=True, exist_ok=True)
     summary = plot_common.read_summary(folder)
-    pictures = [("plastic_strain.png", plot_sections.plastic_strain, (arguments.times,)),
-                ("displacement.png", plot_sections.displacement, (arguments.times,))]
     if plot_common.stage_of(folder, summary) == "static":
-        pictures += [("static_stress.png", plot_sections.static_stress, ())]
+        pictures = [("static_stress.png", plot_sections.static_stress, ())]
     else:
-        pictures += [("histories.png", plot_histories.histories, ()), ("motion.png", plot_histories.motion, ()),
-                     ("slide.png", plot_histories.slide, ()), ("energy.png", plot_energy.energy, ()),
-                     ("summary.png", plot_page.page, ())]
+        pictures = [("plastic_strain.png", plot_sections.plastic_strain, (arguments.times,)),
+                    ("displacement.png", plot_sections.displacement, (arguments.times,)),
+                    ("histories.png", plot_histories.histories, ()), ("motion.png", plot_histories.motion, ()),
+                    ("slide.png", plot_histories.slide, ()), ("energy.png", plot_energy.energy, ()),
+                    ("summary.png", plot_page.page, ())]
     drawn = 0
     for name, draw, extra in pictures:
         try:
