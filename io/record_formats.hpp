@@ -29,4 +29,8 @@ Record read_peer(const RecordSource& source, const std::vector<Line>& lines, con
 /// One column of values, or time and columns of values, below at most one heading. Comments begin with # or
 /// %.
 Record read_table(const RecordSource& source, const std::vector<Line>& lines);
+
+/// Rows of values one after the other below lines of text, as SHAKE's input motions; dt and unit as the case
+/// says.
+Record read_rows(const RecordSource& source, const std::vector<Line>& lines);
 } // namespace mpm::records

@@ -73,7 +73,7 @@ void check_last_number(const RecordSource& source, std::string_view text, const 
 
 std::vector<std::string> record_formats()
 {
-  std::vector<std::string> formats{"auto", "peer", "column", "two_column"};
+  std::vector<std::string> formats{"auto", "peer", "column", "two_column", "shake"};
   for (const Archive& archive : archives()) formats.emplace_back(archive.key);
   return formats;
 }
@@ -105,6 +105,7 @@ Record parse_record(std::string_view text, const RecordSource& source)
     refuse(source, lines[header->line],
            "a header with NPTS and DT in what the case calls " + source.format + "; use format: peer");
   }
+  if (source.format == "shake") return read_rows(source, lines);
   if (const Archive* archive = archive_of(text, whole))
   {
     if (source.format == "auto" || source.format == archive->key) return archive->read(source, whole);

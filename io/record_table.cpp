@@ -35,7 +35,8 @@ void add_row(const RecordSource& source, Table& table, const Line& line, std::op
     refuse(source, line,
            "expected " + std::to_string(columns) + (columns == 1 ? " number" : " numbers") + " and found " +
                std::to_string(values.size()) + " in " + shown(line.text) +
-               "; numbers take a decimal point, not a comma");
+               (columns < 4 ? "; numbers take a decimal point, not a comma"
+                            : "; if these are rows of values one after the other, name format: shake"));
   table.rows.push_back(std::move(values));
   table.lines.push_back(line);
 }
@@ -259,7 +260,8 @@ std::size_t column_of(const RecordSource& source, const Table& table)
     refuse(source, table.lines.front(),
            std::to_string(columns) +
                " numbers a line and nothing that names them: not a format that is read; "
-               "write two columns, time in s and acceleration");
+               "write two columns, time in s and acceleration, or name format: shake if it is rows of "
+               "values one after the other");
   std::string all;
   std::size_t found = 0, matches = 0;
   for (std::size_t column = 1; column < columns; ++column)
