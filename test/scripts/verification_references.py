@@ -81,7 +81,7 @@ def self_weight():
     weight = ROCK[0] * gravity
     modulus = p_modulus(ROCK)
     # ln F = -weight (H - Y) / M, and the settlement is the integral of 1 - F.
-    settlement = y - modulus / weight * (np.exp(-weight * (height - y) / modulus) - np.exp(-weight * height / modulus))
+    settlement = y - modulus / weight * np.exp(-weight * height / modulus) * np.expm1(weight * y / modulus)
     return table({"height": y, "stress_yy": -weight * (height - y), "settlement": settlement},
                  "stress in Pa and settlement in m over the undeformed height in m")
 
