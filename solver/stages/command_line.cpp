@@ -64,6 +64,9 @@ void add_seismic_options(CLI::App& app, Options& options, Typed& typed)
   app.add_option("--record-unit", options.record_unit,
                  "unit of a --motion or --vertical that does not tell it (g, m/s2, gal)")
       ->type_name("U");
+  app.add_option("--record-format", options.record_format,
+                 "format of a --motion or --vertical that does not show it (shake)")
+      ->type_name("F");
   app.add_option("--record-component", options.record_component,
                  "component of a --motion that holds several, as the file names it")
       ->type_name("C");
@@ -180,11 +183,11 @@ void check_pairs(const CLI::App& app, const Typed& typed, const Options& options
                        ", and there is none; for a record of the case set "
                        "its key component");
   if (app.count("--motion") || app.count("--vertical")) return;
-  for (const std::string name : {"--record-dt", "--record-unit"})
+  for (const std::string name : {"--record-dt", "--record-unit", "--record-format"})
     if (app.count(name))
       refuse(name, "applies to a record of --motion or --vertical, and there is neither; for a record of the "
                    "case use --set seismic.motion.horizontal." +
-                       std::string(name == "--record-dt" ? "dt" : "unit"));
+                       name.substr(std::string("--record-").size()));
 }
 
 void read_values(const CLI::App& app, const Typed& typed, Options& options)

@@ -20,6 +20,7 @@ struct Options
   std::string motion, vertical; ///< records that replace the case's
   double record_dt = NAN;       ///< s, of a record on the command line that does not tell it
   std::string record_unit;      ///< likewise
+  std::string record_format;    ///< of such records; empty: found out
   std::string record_component, vertical_component; ///< of files on the command line that hold several
   double scale = 1;
   std::string profile; ///< one of the case's profiles; empty: none

@@ -104,7 +104,7 @@ std::string Session::resolved_case() const
       for (const auto& [path, value] : scene.settings)
         if (path.starts_with(record)) settings.drop(path);
       settings.set(record + ".file", std::filesystem::absolute(file).string());
-      settings.set(record + ".format", "auto");
+      settings.set(record + ".format", options.record_format.empty() ? "auto" : options.record_format);
       if (std::isfinite(options.record_dt))
         settings.set(record + ".dt", quantity_text(options.record_dt, Dimension::time));
       if (!options.record_unit.empty()) settings.set(record + ".unit", options.record_unit);

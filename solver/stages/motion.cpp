@@ -150,7 +150,8 @@ std::optional<GroundMotion> load(Session& session, const std::string& component,
   {
     source = MotionSource{};
     const std::string& part = component == "vertical" ? options.vertical_component : options.record_component;
-    source->record = {replacement, "auto", options.record_dt, options.record_unit, std::nullopt, "", part};
+    const std::string format = options.record_format.empty() ? "auto" : options.record_format;
+    source->record = {replacement, format, options.record_dt, options.record_unit, std::nullopt, "", part};
   }
   if (!source) return std::nullopt;
   MotionProcessing processing = session.scene.seismic.motion.processing;
@@ -235,11 +236,6 @@ Motion load_motion(Session& session)
   const SeismicSettings& seismic = session.scene.seismic;
   const MotionSettings& settings = seismic.motion;
   const Options& options = session.options;
-  if (options.motion.empty() && options.vertical.empty() &&
-      (!std::isnan(options.record_dt) || !options.record_unit.empty()))
-    throw Error(exit_code::usage,
-                "mpm-seismic: --record-dt and --record-unit are of a record on the command "
-                "line: give it with --motion or --vertical, or set dt and unit in the case");
   Motion motion;
   motion.facts = nlohmann::json::object();
   motion.wave = std::make_shared<IncomingWave>();

@@ -122,6 +122,8 @@ TEST_CASE("an option without what it applies to is refused", "[command_line]")
 {
   CHECK_THAT(refusal("mpm-seismic", {"--record-dt", "0.01"}), Contains("--record-dt: applies to a record"));
   CHECK_THAT(refusal("mpm-seismic", {"--record-unit", "g"}), Contains("--record-unit: applies to a record"));
+  CHECK_THAT(refusal("mpm-seismic", {"--record-format", "shake"}),
+             Contains("--record-format: applies to a record"));
   CHECK(refusal("mpm-seismic", {"--vertical", "v.AT2", "--record-unit", "g"}).empty());
   for (const std::string option :
        {"--motion", "--vertical", "--from", "--record-dt", "--record-unit", "--scale"})

@@ -329,3 +329,21 @@ TEST_CASE("a static stage does not need the record that the length of the shakin
   INFO(ending.said);
   CHECK(ending.code == 0);
 }
+
+TEST_CASE("rows of values are read where the command line names their format", "[stages]")
+{
+  const Block b;
+  std::string rows = "MADE FOR A TEST\n";
+  for (int k = 0; k < 120; ++k)
+    rows += (k % 8 ? " " : k ? "\n" : "") + std::to_string(0.1 * std::sin(0.2 * k)) + (k == 119 ? "\n" : "");
+  put(b / "rows.acc", rows);
+  const Arguments record{"--motion", b / "rows.acc", "--record-dt", "0.01", "--record-unit", "g"};
+  Arguments named = record;
+  named.insert(named.end(), {"--record-format", "shake"});
+  const Ending unnamed = b.run("unnamed", record);
+  CHECK(unnamed.code == 65);
+  CHECK_THAT(unnamed.said, Contains("rows.acc:1"));
+  CHECK(b.run("named", named).code == 0);
+  CHECK(b.summary("named")["motion"]["horizontal"]["recorded"]["pga"].get<double>() ==
+        Approx(0.1 * 9.80665).epsilon(0.01)); // the sine's samples miss its peak by cos(0.1) at most, 0.5 %
+}
