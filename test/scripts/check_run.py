@@ -150,8 +150,13 @@ def codes(place):
 def checking(place):
     """With --check both stages tell what they would do, and nothing is drawn."""
     code, _, called = place.run("--check")
+    state = place.root / "run/static/final.h5"
+    state.parent.mkdir(parents=True)
+    state.touch()
+    _, _, later = place.run("--check")
     return wrong(code == 0, "--check" in called["mpm-static"][0], "--check" in called["mpm-seismic"][0],
-                 not called["plot-run"])
+                 not called["plot-run"], "--from" not in called["mpm-seismic"][0],
+                 after(later["mpm-seismic"][0], "--from") == str(state))
 
 
 def checks():
