@@ -2,7 +2,7 @@
 
 #include "boundaries/base_spring.hpp"
 #include "boundaries/face_columns.hpp"
-#include "boundaries/incoming_wave.hpp"
+#include "boundaries/ground_motion/incoming_wave.hpp"
 
 #include <memory>
 

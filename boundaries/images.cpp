@@ -109,7 +109,8 @@ void Images::bind(const Domain& domain)
       homes_.push_back({block, domain.grid.around(block), k, k, false, {}});
     homes_.back().end = k + 1;
   }
-  for (const ImageHome& home : homes_) work_.add(static_cast<int>(work_.items.size()), home.end - home.begin);
+  for (const ImageHome& occupied : homes_)
+    work_.add(static_cast<int>(work_.items.size()), occupied.end - occupied.begin);
 }
 
 namespace
@@ -200,16 +201,16 @@ private:
 } // namespace
 
 template <bool inertia>
-void Images::scatter(const Domain& domain, ImageHome& home, const Rows& rows) const
+void Images::scatter(const Domain& domain, ImageHome& occupied, const Rows& rows) const
 {
-  home.force.value.fill(0);
-  const RowAccelerations a = inertia ? accelerations(home.block, rows) : RowAccelerations{};
-  const TileStencils tile(domain.grid, home.block);
+  occupied.force.value.fill(0);
+  const RowAccelerations a = inertia ? accelerations(occupied.block, rows) : RowAccelerations{};
+  const TileStencils tile(domain.grid, occupied.block);
   ChunkStencils stencils;
   ImageSources from;
-  for (int begin = home.begin; begin < home.end; begin += chunk_size)
+  for (int begin = occupied.begin; begin < occupied.end; begin += chunk_size)
   {
-    const int count = std::min(chunk_size, home.end - begin);
+    const int count = std::min(chunk_size, occupied.end - begin);
     from.take(std::span(bound_).subspan(begin), loads, domain, count);
     stencils.find(tile, from.x, from.y, count);
     for (int k = 0; k < count;)
@@ -217,20 +218,20 @@ void Images::scatter(const Domain& domain, ImageHome& home, const Rows& rows) co
       const int node = stencils.place.node[k];
       ImageSums<inertia> sums(node);
       for (; k < count && stencils.place.node[k] == node; ++k) sums.add(k, stencils, from.load[k]);
-      sums.flush(a, home.force);
+      sums.flush(a, occupied.force);
     }
   }
 }
 
-std::array<double, 2> Images::gather(Grid& g, const ImageHome& home)
+std::array<double, 2> Images::gather(Grid& g, const ImageHome& occupied)
 {
   std::array<double, 2> sum{};
-  for_each_run(g, home.around,
+  for_each_run(g, occupied.around,
                [&](int node, int place, int count)
                {
                  for (int k = 0; k < count; ++k)
                  {
-                   const double* force = &home.force.value[2 * (place + k)];
+                   const double* force = &occupied.force.value[2 * (place + k)];
                    if (g.mass[node + k] <= 0) continue;
                    sum[0] += force[0];
                    sum[1] += force[1];
@@ -244,20 +245,20 @@ std::array<double, 2> Images::gather(Grid& g, const ImageHome& home)
 std::array<double, 2> Images::add_forces(Domain& domain, const Rows& rows)
 {
   const bool rests = domain.rests();
-  for (ImageHome& home : homes_) home.hidden = rests && !domain.awake_around(home.around);
+  for (ImageHome& occupied : homes_) occupied.hidden = rests && !domain.awake_around(occupied.around);
   parallel::for_each(work_,
                      [&](int k)
                      {
-                       ImageHome& home = homes_[k];
-                       if (home.hidden) return;
-                       rows.acceleration.empty() ? scatter<false>(domain, home, rows)
-                                                 : scatter<true>(domain, home, rows);
+                       ImageHome& occupied = homes_[k];
+                       if (occupied.hidden) return;
+                       rows.acceleration.empty() ? scatter<false>(domain, occupied, rows)
+                                                 : scatter<true>(domain, occupied, rows);
                      });
   std::array<double, 2> sum{};
-  for (const ImageHome& home : homes_)
+  for (const ImageHome& occupied : homes_)
   {
-    if (home.hidden) continue;
-    const auto [x, y] = gather(domain.grid, home);
+    if (occupied.hidden) continue;
+    const auto [x, y] = gather(domain.grid, occupied);
     sum[0] += x;
     sum[1] += y;
   }
@@ -268,16 +269,16 @@ double Images::work(const Domain& domain, double dt) const
 {
   const Grid& g = domain.grid;
   double power = 0;
-  for (const ImageHome& home : homes_)
+  for (const ImageHome& occupied : homes_)
   {
-    if (home.hidden) continue;
-    for_each_run(g, home.around,
+    if (occupied.hidden) continue;
+    for_each_run(g, occupied.around,
                  [&](int node, int place, int count)
                  {
                    for (int k = 0; k < count; ++k)
                    {
                      const auto [vx, vy] = g.middle_velocity(node + k);
-                     const double* force = &home.force.value[2 * (place + k)];
+                     const double* force = &occupied.force.value[2 * (place + k)];
                      power += force[0] * vx + force[1] * vy;
                    }
                  });
@@ -313,7 +314,7 @@ void FrozenImages::add_forces(Domain& domain, double)
 
 void FrozenImages::measure_work(const Domain& domain, double dt, Energies& now) const
 {
-  const auto [px, py] = domain.ledger.step.momentum;
+  const auto [px, py] = domain.energy.step.momentum;
   now[Energy::reaction] += images_.work(domain, dt) + dt * (correction_[0][0] * px + correction_[0][1] * py);
 }
 

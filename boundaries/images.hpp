@@ -79,14 +79,14 @@ private:
     bool hidden;    ///< see add_forces
     PairTile force; ///< of the last step, N per m
   };
-  /// Forces of a home's images, into its tile.
+  /// Forces of a occupied block's images, into its tile.
   template <bool inertia>
-  void scatter(const Domain& domain, ImageHome& home, const Rows& rows) const;
-  /// Adds a home's tile to the nodes that hold real mass, and returns the sum.
-  static std::array<double, 2> gather(Grid& grid, const ImageHome& home);
+  void scatter(const Domain& domain, ImageHome& occupied, const Rows& rows) const;
+  /// Adds a occupied block's tile to the nodes that hold real mass, and returns the sum.
+  static std::array<double, 2> gather(Grid& grid, const ImageHome& occupied);
   std::vector<BoundImage> bound_; ///< as the list
   std::vector<ImageHome> homes_;
-  parallel::Group work_; ///< homes and what they cost
+  parallel::Group work_; ///< occupied blocks and what they cost
 };
 
 /// Images of all particles within four cells of the walls, with the corners' products; each has a load of its

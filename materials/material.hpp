@@ -20,7 +20,7 @@ using Law = std::variant<Elastic, VonMises, MohrCoulomb, SlipWeakening>;
 /// No law remembers more history variables than this.
 inline constexpr int most_state_fields = 8;
 
-/// A named material of a scene: its law, and the law's history variables over the material's particles
+/// A named material of a case: its law, and the law's history variables over the material's particles
 /// (state[field][k], k counted from the material's first particle).
 struct Material
 {

@@ -1,8 +1,8 @@
 #pragma once
 // Result files that are well-formed and yet wrong: changed by hand, their seal made to fit again.
 
-#include "io/digest.hpp"
-#include "io/files.hpp"
+#include "io/common/digest.hpp"
+#include "io/common/files.hpp"
 #include "test/temporary_folder.hpp"
 
 namespace mpm::test

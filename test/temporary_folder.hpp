@@ -1,6 +1,6 @@
 #pragma once
 
-#include "io/error.hpp"
+#include "io/common/error.hpp"
 
 #include <cstdlib>
 #include <filesystem>

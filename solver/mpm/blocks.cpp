@@ -65,10 +65,10 @@ void sort_material(Domain& domain, int material, std::vector<std::pair<BlockInde
 std::vector<BlockIndex> with_surroundings(const Domain& domain)
 {
   std::vector<BlockIndex> wanted;
-  for (const Home& home : domain.homes)
+  for (const OccupiedBlock& occupied : domain.occupied_blocks)
     for (int y = -1; y <= 1; ++y)
       for (int x = -1; x <= 1; ++x)
-        wanted.push_back({domain.grid.wrapped ? 0 : home.block.x + x, home.block.y + y});
+        wanted.push_back({domain.grid.wrapped ? 0 : occupied.block.x + x, occupied.block.y + y});
   std::sort(wanted.begin(), wanted.end());
   wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
   return wanted;
@@ -101,7 +101,7 @@ void rebuild(Domain& domain)
   const auto absorbing = [](const auto& boundary) { return boundary->absorbs(); };
   const bool dashpots = std::any_of(domain.boundaries.begin(), domain.boundaries.end(), absorbing);
   domain.grid.build(with_surroundings(domain), dashpots, dashpots && domain.consistent_inertia);
-  for (Home& home : domain.homes) home.around = domain.grid.around(home.block);
+  for (OccupiedBlock& occupied : domain.occupied_blocks) occupied.around = domain.grid.around(occupied.block);
   bind_rest(domain);
   find_places(domain);
   for (const auto& boundary : domain.boundaries) boundary->bind(domain);
@@ -114,18 +114,20 @@ void sort_particles(Domain& domain)
     sort_material(domain, static_cast<int>(k), stretches);
   std::stable_sort(stretches.begin(), stretches.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
-  const std::vector<Home> before = std::move(domain.homes);
-  domain.homes.clear();
+  const std::vector<OccupiedBlock> before = std::move(domain.occupied_blocks);
+  domain.occupied_blocks.clear();
   for (const auto& [block, range] : stretches)
   {
-    if (domain.homes.empty() || domain.homes.back().block != block)
+    if (domain.occupied_blocks.empty() || domain.occupied_blocks.back().block != block)
     {
-      const auto by_block = [](const Home& home, BlockIndex wanted) { return home.block < wanted; };
+      const auto by_block = [](const OccupiedBlock& occupied, BlockIndex wanted)
+      { return occupied.block < wanted; };
       const auto old = std::lower_bound(before.begin(), before.end(), block, by_block);
       const bool known = old != before.end() && old->block == block;
-      domain.homes.push_back(known ? Home{block, {}, {}, old->asleep, old->greatest} : Home{block, {}, {}});
+      domain.occupied_blocks.push_back(known ? OccupiedBlock{block, {}, {}, old->asleep, old->greatest}
+                                             : OccupiedBlock{block, {}, {}});
     }
-    domain.homes.back().ranges.push_back(range);
+    domain.occupied_blocks.back().ranges.push_back(range);
   }
   domain.drift = 0;
   find_places(domain);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "solver/mpm/ledger.hpp"
+#include "solver/mpm/energy_balance.hpp"
 
 namespace mpm
 {

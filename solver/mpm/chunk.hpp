@@ -140,11 +140,11 @@ void for_each_chunk(const Range& range, const Function& f)
     f(begin, std::min(chunk_size, range.end - begin));
 }
 
-/// Calls f(material, begin, count) for the chunks of a home block.
+/// Calls f(material, begin, count) for the chunks of a occupied block block.
 template <class Function>
-void for_each_chunk(const Home& home, const Function& f)
+void for_each_chunk(const OccupiedBlock& occupied, const Function& f)
 {
-  for (const Range& range : home.ranges)
+  for (const Range& range : occupied.ranges)
     for_each_chunk(range, [&](int begin, int count) { f(range.material, begin, count); });
 }
 } // namespace mpm

@@ -17,7 +17,7 @@ struct Departed
   Edge edge = Edge::bottom;                ///< which it passed
   double time = 0;                         ///< when it was taken out, s
   double mass = 0;                         ///< kg per m
-  double reference_x = 0, reference_y = 0; ///< where it was in the undeformed scene, m
+  double reference_x = 0, reference_y = 0; ///< where it was in the undeformed ground, m
 };
 
 /// A particle that is to leave: where it stands among the particles, and the edge that it has passed.

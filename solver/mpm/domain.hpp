@@ -24,7 +24,7 @@ struct Range
 };
 
 /// A block that holds particles, and its ranges in the order in which they are summed.
-struct Home
+struct OccupiedBlock
 {
   BlockIndex block;
   Neighbours around;
@@ -41,7 +41,7 @@ struct Home
 };
 
 /// A massless material point that moves with the interpolated grid velocity: a gauge.
-struct Tracer
+struct Gauge
 {
   double x, y;                     ///< position, m; not a number once its ground has left the domain
   double reference_x, reference_y; ///< where it began, m
@@ -49,7 +49,7 @@ struct Tracer
 };
 
 /// Force balance and motion of the last step, of nodes that carry more than 1 % of a full cell.
-struct Balance
+struct ForceBalance
 {
   double unbalanced = 0; ///< sum |f|, N per m
   double total = 0;      ///< twice the weight, what |f_int| + |f_ext| come to in equilibrium, N per m
@@ -71,36 +71,38 @@ struct Domain
   std::vector<Material> materials;
   std::vector<int> material_begin; ///< particles of material k: [material_begin[k], material_begin[k + 1])
   std::vector<std::unique_ptr<Boundary>> boundaries;
-  std::vector<Tracer> tracers;
+  std::vector<Gauge> gauges;
   std::vector<Departed> departed; ///< particles that have left, in the order in which they did
 
   double gravity_x = 0, gravity_y = 0; ///< body acceleration of now, m/s2
   double damping = 0;                  ///< local damping beta, eq. (1)
   double flip_blend = 0;               ///< share of FLIP in the particles' velocities, METHODS section 1
-  bool average_volume = false;     ///< volume changes averaged over the cell, see average_volume_changes()
-  bool consistent_inertia = false; ///< whether the step corrects the lumped mass, see correct_inertia
-  bool plastic = true;             ///< whether the laws may yield
-  bool balance_wanted = false;     ///< whether the step measures `balance`
-  double time = 0;                 ///< at the start of the step, s
+  bool average_volume = false;       ///< volume changes averaged over the cell, see average_volume_changes()
+  bool consistent_inertia = false;   ///< whether the step corrects the lumped mass, see correct_inertia
+  bool plastic = true;               ///< whether the laws may yield
+  bool force_balance_wanted = false; ///< whether the step measures `balance`
+  double time = 0;                   ///< at the start of the step, s
 
-  std::vector<Home> homes;                ///< sorted by block
-  parallel::Group awake;                  ///< homes that take part in steps
-  std::array<parallel::Group, 4> colours; ///< the same, by colour; those of one share no node
-  std::vector<int> home_in;               ///< place of a grid block's home, -1 if it has none
+  std::vector<OccupiedBlock> occupied_blocks; ///< sorted by block
+  parallel::Group awake;                      ///< occupied blocks that take part in steps
+  std::array<parallel::Group, 4> colours;     ///< the same, by colour; those of one share no node
+  std::vector<int> occupied_in;               ///< place of a grid block's occupied block, -1 if it has none
   Rest rest;
   /// Whether some ground sleeps.
-  bool rests() const { return awake.items.size() < homes.size(); }
+  bool rests() const { return awake.items.size() < occupied_blocks.size(); }
   /// Whether ground in one of these blocks is awake.
   bool awake_around(const Neighbours& around) const
   {
     return std::any_of(around.begin(), around.end(),
-                       [this](int block)
-                       { return block >= 0 && home_in[block] >= 0 && !homes[home_in[block]].asleep; });
+                       [this](int block) {
+                         return block >= 0 && occupied_in[block] >= 0 &&
+                                !occupied_blocks[occupied_in[block]].asleep;
+                       });
   }
   std::vector<int> place; ///< where a particle id stands now; -1: it has left
   double drift = 0;       ///< cells that a particle may have moved since the last sort
-  Balance balance;
-  Ledger ledger;
+  ForceBalance force_balance;
+  EnergyBalance energy;
   PhaseTimes times;         ///< of all steps since the program began
   double greatest_move = 0; ///< greatest displacement component of the last step, in cells
 };
@@ -112,7 +114,8 @@ void sort_particles(Domain& domain);
 /// Finds Domain::place again.
 void find_places(Domain& domain);
 
-/// Rebuilds blocks, grid and bindings from the homes in place, without touching the order (after a restart).
+/// Rebuilds blocks, grid and bindings from the occupied blocks in place, without touching the order (after a
+/// restart).
 void rebuild(Domain& domain);
 
 /// Gives a domain its materials and makes room for counts[k] particles of material k, with ids 0 .. n-1 in

@@ -174,13 +174,13 @@ private:
 };
 
 /// Greatest displacement component of a block's particles in cells; infinite when one is deformed wholly.
-double update_home(Domain& domain, const Home& home, double dt)
+double update_home(Domain& domain, const OccupiedBlock& occupied, double dt)
 {
   const Grid& grid = domain.grid;
   const Transfer transfer{dt, grid.spacing, domain.flip_blend};
-  const Component x(grid, home.around, grid.velocity_x, grid.momentum_x, transfer);
-  const Component y(grid, home.around, grid.velocity_y, grid.momentum_y, transfer);
-  const TileStencils tile(grid, home.block);
+  const Component x(grid, occupied.around, grid.velocity_x, grid.momentum_x, transfer);
+  const Component y(grid, occupied.around, grid.velocity_y, grid.momentum_y, transfer);
+  const TileStencils tile(grid, occupied.block);
   ChunkPlaces places;
   Splines splines;
   VelocityGradients L;
@@ -188,7 +188,7 @@ double update_home(Domain& domain, const Home& home, double dt)
   const Carried of_x{p.x, p.velocity_x, p.affine_xx, p.affine_xy, L.xx, L.xy};
   const Carried of_y{p.y, p.velocity_y, p.affine_yx, p.affine_yy, L.yx, L.yy};
   Extremes greatest;
-  for_each_chunk(home,
+  for_each_chunk(occupied,
                  [&](int material, int begin, int count)
                  {
                    places.find(tile, &p.x[begin], &p.y[begin], count);
@@ -224,11 +224,11 @@ constexpr double least_density = 0.1;
 
 /// Moves a gauge with the velocity of the ground at its place; nodes without mass are left out of the mean.
 /// Where the ground is torn to pieces it flies, where the ground sleeps it stands still.
-void move(Tracer& tracer, const Domain& domain, double density, NodeFinder& find, double dt)
+void move(Gauge& gauge, const Domain& domain, double density, NodeFinder& find, double dt)
 {
   const Grid& grid = domain.grid;
-  const Stencil sx = cubic_stencil(tracer.x - grid.origin_x, grid.spacing);
-  const Stencil sy = cubic_stencil(tracer.y - grid.origin_y, grid.spacing);
+  const Stencil sx = cubic_stencil(gauge.x - grid.origin_x, grid.spacing);
+  const Stencil sy = cubic_stencil(gauge.y - grid.origin_y, grid.spacing);
   find.move_to(sx.first, sy.first);
   double weight = 0, mass = 0, vx = 0, vy = 0;
   bool rests = false;
@@ -237,8 +237,8 @@ void move(Tracer& tracer, const Domain& domain, double density, NodeFinder& find
     {
       const int node = find(sx.first + i, sy.first + j);
       if (node < 0) continue;
-      const int home = domain.home_in[node / block_nodes];
-      rests |= home >= 0 && domain.homes[home].asleep;
+      const int occupied = domain.occupied_in[node / block_nodes];
+      rests |= occupied >= 0 && domain.occupied_blocks[occupied].asleep;
       if (grid.mass[node] <= 0) continue;
       const double w = sx.weight[i] * sy.weight[j];
       weight += w;
@@ -250,10 +250,10 @@ void move(Tracer& tracer, const Domain& domain, double density, NodeFinder& find
   const auto next = [&](double before, double gravity, double sum) {
     return flies ? before + dt * gravity : weight > 0 ? sum / weight : 0;
   };
-  tracer.velocity_x = next(tracer.velocity_x, domain.gravity_x, vx);
-  tracer.velocity_y = next(tracer.velocity_y, domain.gravity_y, vy);
-  tracer.x += dt * tracer.velocity_x;
-  tracer.y += dt * tracer.velocity_y;
+  gauge.velocity_x = next(gauge.velocity_x, domain.gravity_x, vx);
+  gauge.velocity_y = next(gauge.velocity_y, domain.gravity_y, vy);
+  gauge.x += dt * gauge.velocity_x;
+  gauge.y += dt * gauge.velocity_y;
 }
 
 void move_tracers(Domain& domain, double dt)
@@ -261,15 +261,16 @@ void move_tracers(Domain& domain, double dt)
   double lightest = std::numeric_limits<double>::infinity();
   for (const Material& material : domain.materials) lightest = std::min(lightest, material.elastic().density);
   NodeFinder find(domain.grid);
-  for (Tracer& tracer : domain.tracers)
-    if (!std::isnan(tracer.x)) move(tracer, domain, lightest, find, dt);
+  for (Gauge& gauge : domain.gauges)
+    if (!std::isnan(gauge.x)) move(gauge, domain, lightest, find, dt);
 }
 } // namespace
 
 void grid_to_particles(Domain& domain, double dt)
 {
-  std::vector<double> moves(domain.homes.size());
-  parallel::for_each(domain.awake, [&](int k) { moves[k] = update_home(domain, domain.homes[k], dt); });
+  std::vector<double> moves(domain.occupied_blocks.size());
+  parallel::for_each(domain.awake,
+                     [&](int k) { moves[k] = update_home(domain, domain.occupied_blocks[k], dt); });
   domain.greatest_move = moves.empty() ? 0 : *std::max_element(moves.begin(), moves.end());
   watch_rest(domain, moves, dt);
   move_tracers(domain, dt);

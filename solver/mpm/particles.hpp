@@ -12,7 +12,7 @@ namespace mpm
 struct Particles
 {
   std::vector<double> x, y;                                       ///< position, m
-  std::vector<double> reference_x, reference_y;                   ///< position in the undeformed scene, m
+  std::vector<double> reference_x, reference_y;                   ///< position in the undeformed ground, m
   std::vector<double> velocity_x, velocity_y;                     ///< m/s
   std::vector<double> affine_xx, affine_xy, affine_yx, affine_yy; ///< C = D^-1 B, 1/s
   std::vector<double> stress_xx, stress_yy, stress_zz, stress_xy; ///< Cauchy stress, Pa

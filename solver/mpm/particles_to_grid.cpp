@@ -120,17 +120,17 @@ void scatter_range(const Domain& domain, const TileStencils& tile, const Range& 
 }
 
 /// Adds the particles of a block to the grid, materials of the same mass scale together.
-void scatter_home(Domain& domain, const Home& home)
+void scatter_home(Domain& domain, const OccupiedBlock& occupied)
 {
   Grid& grid = domain.grid;
-  const TileStencils tile(grid, home.block);
+  const TileStencils tile(grid, occupied.block);
   const auto scale_of = [&](const Range& range) { return domain.materials[range.material].mass_scale; };
-  for (auto range = home.ranges.begin(); range != home.ranges.end();)
+  for (auto range = occupied.ranges.begin(); range != occupied.ranges.end();)
   {
     Tiles tiles;
     std::memset(&tiles, 0, sizeof tiles);
     const double mass_scale = scale_of(*range);
-    for (; range != home.ranges.end() && scale_of(*range) == mass_scale; ++range)
+    for (; range != occupied.ranges.end() && scale_of(*range) == mass_scale; ++range)
       scatter_range(domain, tile, *range, mass_scale, tiles);
     const double gx = domain.gravity_x / mass_scale, gy = domain.gravity_y / mass_scale;
     for (int k = 0; k < tile_size; ++k)
@@ -138,9 +138,9 @@ void scatter_home(Domain& domain, const Home& home)
       tiles.force.value[2 * k] += gx * tiles.mass.value[k];
       tiles.force.value[2 * k + 1] += gy * tiles.mass.value[k];
     }
-    add_tile(grid, home.around, tiles.mass, grid.mass);
-    add_tile(grid, home.around, tiles.momentum, grid.momentum_x, grid.momentum_y);
-    add_tile(grid, home.around, tiles.force, grid.force_x, grid.force_y);
+    add_tile(grid, occupied.around, tiles.mass, grid.mass);
+    add_tile(grid, occupied.around, tiles.momentum, grid.momentum_x, grid.momentum_y);
+    add_tile(grid, occupied.around, tiles.force, grid.force_x, grid.force_y);
   }
 }
 } // namespace
@@ -148,7 +148,7 @@ void scatter_home(Domain& domain, const Home& home)
 void particles_to_grid(Domain& domain, double dt)
 {
   domain.grid.for_each_block([&](int k) { domain.grid.clear(k); });
-  parallel::for_each_in_turn(domain.colours, [&](int k) { scatter_home(domain, domain.homes[k]); });
+  parallel::for_each_in_turn(domain.colours, [&](int k) { scatter_home(domain, domain.occupied_blocks[k]); });
   domain.times.lap(Phase::scatter);
   for (const auto& boundary : domain.boundaries) boundary->add_forces(domain, dt);
   domain.times.lap(Phase::boundaries);

@@ -8,28 +8,28 @@ namespace mpm
 {
 namespace
 {
-/// Calls f(home) for the homes around one, itself included.
+/// Calls f(occupied block) for the occupied blocks around one, itself included.
 template <class Function>
-void for_each_around(Domain& domain, const Home& home, const Function& f)
+void for_each_around(Domain& domain, const OccupiedBlock& occupied, const Function& f)
 {
-  for (const int block : home.around)
-    if (block >= 0 && domain.home_in[block] >= 0) f(domain.homes[domain.home_in[block]]);
+  for (const int block : occupied.around)
+    if (block >= 0 && domain.occupied_in[block] >= 0) f(domain.occupied_blocks[domain.occupied_in[block]]);
 }
 
-void stand_still(Domain& domain, const Home& home)
+void stand_still(Domain& domain, const OccupiedBlock& occupied)
 {
   Particles& p = domain.particles;
-  for (const Range& range : home.ranges)
+  for (const Range& range : occupied.ranges)
     for (auto* field : {&p.velocity_x, &p.velocity_y, &p.affine_xx, &p.affine_xy, &p.affine_yx, &p.affine_yy})
       std::fill(field->begin() + range.begin, field->begin() + range.end, 0.0);
 }
 
-/// Whether a home woke.
-bool wake_beside(Domain& domain, const Home& home)
+/// Whether a occupied block woke.
+bool wake_beside(Domain& domain, const OccupiedBlock& occupied)
 {
   bool woke = false;
-  for_each_around(domain, home,
-                  [&](Home& other)
+  for_each_around(domain, occupied,
+                  [&](OccupiedBlock& other)
                   {
                     if (!other.asleep) return;
                     other.asleep = false;
@@ -39,21 +39,23 @@ bool wake_beside(Domain& domain, const Home& home)
   return woke;
 }
 
-/// Whether a home fell asleep. All are judged by the second that has passed, then the next one begins.
+/// Whether a occupied block fell asleep. All are judged by the second that has passed, then the next one
+/// begins.
 bool fall_asleep(Domain& domain)
 {
-  std::vector<Home*> tired;
-  for (Home& home : domain.homes)
+  std::vector<OccupiedBlock*> tired;
+  for (OccupiedBlock& occupied : domain.occupied_blocks)
   {
     double greatest = 0;
-    for_each_around(domain, home, [&](const Home& other) { greatest = std::max(greatest, other.greatest); });
-    if (!home.asleep && greatest < domain.rest.below) tired.push_back(&home);
+    for_each_around(domain, occupied,
+                    [&](const OccupiedBlock& other) { greatest = std::max(greatest, other.greatest); });
+    if (!occupied.asleep && greatest < domain.rest.below) tired.push_back(&occupied);
   }
-  for (Home& home : domain.homes) home.greatest = 0;
-  for (Home* home : tired)
+  for (OccupiedBlock& occupied : domain.occupied_blocks) occupied.greatest = 0;
+  for (OccupiedBlock* occupied : tired)
   {
-    home->asleep = true;
-    stand_still(domain, *home);
+    occupied->asleep = true;
+    stand_still(domain, *occupied);
   }
   return !tired.empty();
 }
@@ -61,23 +63,23 @@ bool fall_asleep(Domain& domain)
 
 void bind_rest(Domain& domain)
 {
-  domain.home_in.assign(domain.grid.blocks.size(), -1);
+  domain.occupied_in.assign(domain.grid.blocks.size(), -1);
   domain.awake = {};
   domain.colours = {};
-  for (int k = 0; k < static_cast<int>(domain.homes.size()); ++k)
+  for (int k = 0; k < static_cast<int>(domain.occupied_blocks.size()); ++k)
   {
-    const Home& home = domain.homes[k];
-    domain.home_in[home.around[4]] = k;
-    if (home.asleep) continue;
-    domain.awake.add(k, home.particles());
-    domain.colours[home.block.colour()].add(k, home.particles());
+    const OccupiedBlock& occupied = domain.occupied_blocks[k];
+    domain.occupied_in[occupied.around[4]] = k;
+    if (occupied.asleep) continue;
+    domain.awake.add(k, occupied.particles());
+    domain.colours[occupied.block.colour()].add(k, occupied.particles());
   }
   std::vector<int>& held = domain.rest.held;
   held.clear();
-  for (const Home& home : domain.homes)
+  for (const OccupiedBlock& occupied : domain.occupied_blocks)
   {
-    if (!home.asleep || !domain.awake_around(home.around)) continue;
-    for_each_run(domain.grid, home.around,
+    if (!occupied.asleep || !domain.awake_around(occupied.around)) continue;
+    for_each_run(domain.grid, occupied.around,
                  [&](int node, int, int count)
                  {
                    for (int k = 0; k < count; ++k) held.push_back(node + k);
@@ -93,10 +95,10 @@ void allow_rest(Domain& domain, double below)
   if (rest.below == below) return;
   rest.below = below;
   rest.watched = 0;
-  for (Home& home : domain.homes)
+  for (OccupiedBlock& occupied : domain.occupied_blocks)
   {
-    home.asleep = false;
-    home.greatest = std::numeric_limits<double>::infinity();
+    occupied.asleep = false;
+    occupied.greatest = std::numeric_limits<double>::infinity();
   }
   bind_rest(domain);
 }
@@ -120,10 +122,10 @@ void watch_rest(Domain& domain, std::span<const double> moves, double dt)
   bool changed = false;
   for (const int k : domain.awake.items)
   {
-    Home& home = domain.homes[k];
+    OccupiedBlock& occupied = domain.occupied_blocks[k];
     const double speed = moves[k] * domain.grid.spacing / dt;
-    home.greatest = std::max(home.greatest, speed);
-    if (speed >= rest.below) changed |= wake_beside(domain, home);
+    occupied.greatest = std::max(occupied.greatest, speed);
+    if (speed >= rest.below) changed |= wake_beside(domain, occupied);
   }
   rest.watched += dt;
   if (rest.watched >= Rest::window)
@@ -138,18 +140,18 @@ void visit_rest(StateVisitor& visitor, Domain& domain)
 {
   std::vector<double> settings{domain.rest.below, domain.rest.watched}, greatest;
   std::vector<std::int64_t> asleep, skipped{domain.rest.skipped};
-  for (const Home& home : domain.homes)
+  for (const OccupiedBlock& occupied : domain.occupied_blocks)
   {
-    greatest.push_back(home.greatest);
-    asleep.push_back(home.asleep);
+    greatest.push_back(occupied.greatest);
+    asleep.push_back(occupied.asleep);
   }
   visitor.doubles("settings", "m/s, s", settings);
   visitor.doubles("greatest_speed", "m/s", greatest);
   visitor.integers("asleep", asleep);
   visitor.integers("skipped", skipped);
   if (settings.size() != 2 || skipped.size() != 1 || skipped[0] < 0 ||
-      greatest.size() != domain.homes.size() || asleep.size() != domain.homes.size())
-    throw std::runtime_error("rest is that of other homes");
+      greatest.size() != domain.occupied_blocks.size() || asleep.size() != domain.occupied_blocks.size())
+    throw std::runtime_error("rest is that of other occupied_blocks");
   for (const double value : {settings[0], settings[1]})
     if (!(std::isfinite(value) && value >= 0)) throw std::runtime_error("rest/settings cannot be");
   for (const double value : greatest)
@@ -157,10 +159,10 @@ void visit_rest(StateVisitor& visitor, Domain& domain)
   domain.rest.below = settings[0];
   domain.rest.watched = settings[1];
   domain.rest.skipped = skipped[0];
-  for (std::size_t k = 0; k < domain.homes.size(); ++k)
+  for (std::size_t k = 0; k < domain.occupied_blocks.size(); ++k)
   {
-    domain.homes[k].greatest = greatest[k];
-    domain.homes[k].asleep = asleep[k] != 0;
+    domain.occupied_blocks[k].greatest = greatest[k];
+    domain.occupied_blocks[k].asleep = asleep[k] != 0;
   }
 }
 } // namespace mpm

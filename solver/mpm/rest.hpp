@@ -30,7 +30,7 @@ struct Rest
 /// Lets ground slower than `below` (m/s) fall asleep from now on; 0 wakes all and lets none.
 void allow_rest(Domain& domain, double below);
 
-/// Finds the nodes to be held and the homes that are awake; after a change of either.
+/// Finds the nodes to be held and the occupied blocks that are awake; after a change of either.
 void bind_rest(Domain& domain);
 
 /// Takes momentum, forces and velocity from the nodes that are held: before the equation of motion, and after
@@ -38,9 +38,9 @@ void bind_rest(Domain& domain);
 void hold_resting_nodes(Domain& domain);
 
 /// After a step of dt s: wakes what has something moving beside it, lets fall asleep what has come to rest.
-/// `moves` are the greatest displacements of each home's particles in it, in cells.
+/// `moves` are the greatest displacements of each occupied block's particles in it, in cells.
 void watch_rest(Domain& domain, std::span<const double> moves, double dt);
 
-/// Saves or loads what rests, of homes in place.
+/// Saves or loads what rests, of occupied blocks in place.
 void visit_rest(StateVisitor& visitor, Domain& domain);
 } // namespace mpm

@@ -167,12 +167,12 @@ double unbalanced_of(const Grid& g, int block, double gate)
 
 /// In equilibrium internal forces are the opposite of weight, node by node, so that together they are twice
 /// the weight; masses may be scaled, weights are not.
-Balance balance_of(const Domain& domain, double cell_mass)
+ForceBalance balance_of(const Domain& domain, double cell_mass)
 {
   const int blocks = static_cast<int>(domain.grid.blocks.size());
   std::vector<double> parts(blocks);
   domain.grid.for_each_block([&](int k) { parts[k] = unbalanced_of(domain.grid, k, 0.01 * cell_mass); });
-  Balance b;
+  ForceBalance b;
   for (const double part : parts) b.unbalanced += part;
   for (const double mass : domain.particles.mass) b.total += 2 * mass;
   b.total *= std::hypot(domain.gravity_x, domain.gravity_y);
@@ -200,7 +200,7 @@ void solve_grid(Domain& domain, double dt)
     hold_resting_nodes(domain);
     grid.for_each_block([&](int k) { works[k] = corrected_work(grid, k, a); });
   }
-  domain.ledger.step = sum_of(works, dt);
-  if (domain.balance_wanted) domain.balance = balance_of(domain, cell_mass);
+  domain.energy.step = sum_of(works, dt);
+  if (domain.force_balance_wanted) domain.force_balance = balance_of(domain, cell_mass);
 }
 } // namespace mpm

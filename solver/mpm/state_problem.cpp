@@ -41,7 +41,7 @@ std::string place_particles(Domain& domain, std::size_t total)
 /// A gauge has place and velocity, or has left with its ground and has neither.
 std::string tracers_problem(const Domain& domain)
 {
-  for (const Tracer& t : domain.tracers)
+  for (const Gauge& t : domain.gauges)
   {
     const bool here = std::isfinite(t.x) && std::isfinite(t.y) && std::isfinite(t.velocity_x) &&
                       std::isfinite(t.velocity_y);
@@ -105,36 +105,36 @@ std::string fields_problem(const Domain& domain, const std::vector<double>& mass
   return {};
 }
 
-/// The homes hold each particle once, in ranges of its material, and each near its block.
+/// The occupied blocks hold each particle once, in ranges of its material, and each near its block.
 std::string homes_problem(const Domain& domain)
 {
   const Particles& p = domain.particles;
   std::vector<bool> held(p.size(), false);
-  for (std::size_t h = 0; h < domain.homes.size(); ++h)
+  for (std::size_t h = 0; h < domain.occupied_blocks.size(); ++h)
   {
-    const Home& home = domain.homes[h];
-    if (std::abs(home.block.x) > farthest_block || std::abs(home.block.y) > farthest_block ||
-        (domain.grid.wrapped && home.block.x != 0))
-      return "homes name a block far off";
-    if (h > 0 && !(domain.homes[h - 1].block < home.block))
-      return "homes are not in the order of their blocks";
-    for (const Range& range : home.ranges)
+    const OccupiedBlock& occupied = domain.occupied_blocks[h];
+    if (std::abs(occupied.block.x) > farthest_block || std::abs(occupied.block.y) > farthest_block ||
+        (domain.grid.wrapped && occupied.block.x != 0))
+      return "occupied_blocks name a block far off";
+    if (h > 0 && !(domain.occupied_blocks[h - 1].block < occupied.block))
+      return "occupied_blocks are not in the order of their blocks";
+    for (const Range& range : occupied.ranges)
     {
       if (range.material < 0 || range.material >= static_cast<int>(domain.materials.size()) ||
           range.begin < domain.material_begin[range.material] ||
           range.end > domain.material_begin[range.material + 1] || range.begin >= range.end)
-        return "homes name particles that their material has not";
+        return "occupied_blocks name particles that their material has not";
       for (int k = range.begin; k < range.end; ++k)
       {
-        if (held[k]) return "homes hold " + particle(p.id[k]) + "twice";
+        if (held[k]) return "occupied_blocks hold " + particle(p.id[k]) + "twice";
         held[k] = true;
-        if (!within_tile(domain.grid, home.block, p.x[k], p.y[k]))
+        if (!within_tile(domain.grid, occupied.block, p.x[k], p.y[k]))
           return particle(p.id[k]) + "does not stand in its block";
       }
     }
   }
   for (int k = 0; k < p.size(); ++k)
-    if (!held[k]) return "homes do not hold " + particle(p.id[k]);
+    if (!held[k]) return "occupied_blocks do not hold " + particle(p.id[k]);
   if (!(domain.drift >= 0 && domain.drift <= greatest_drift))
     return "drift is " + std::to_string(domain.drift);
   return {};

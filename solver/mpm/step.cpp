@@ -25,7 +25,7 @@ void wrap(Domain& domain)
 
 void find_diverged(const Domain& domain)
 {
-  if (domain.greatest_move <= move_limit && std::isfinite(domain.ledger.step.work)) return;
+  if (domain.greatest_move <= move_limit && std::isfinite(domain.energy.step.work)) return;
   throw Diverged(
       domain.name +
       ": a particle moves more than a quarter of a cell, or is deformed wholly, in the step at t = " +
@@ -41,7 +41,7 @@ void step(Domain& domain, double dt)
   particles_to_grid(domain, dt); // (a) mass, momentum and forces to the grid
   solve_grid(domain, dt);        // (b) equation of motion
   domain.times.lap(Phase::grid);
-  account(domain, dt); //     its work, for the energy ledger
+  account(domain, dt); //     its work, for the energy balance
   domain.times.lap(Phase::boundaries);
   if (domain.average_volume) average_volume_changes(domain, dt);
   grid_to_particles(domain, dt); // (c) velocities back to the particles, (d) deformation and stress

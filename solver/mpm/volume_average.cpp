@@ -38,22 +38,23 @@ double divergence(const PairTile& velocity, const Stencil& x, const Stencil& y)
 
 /// Calls f(particle) for the particles of a material in a block.
 template <class Function>
-void for_each_particle(const Home& home, int material, const Function& f)
+void for_each_particle(const OccupiedBlock& occupied, int material, const Function& f)
 {
-  for (const Range& range : home.ranges)
+  for (const Range& range : occupied.ranges)
     if (range.material == material)
       for (int p = range.begin; p < range.end; ++p) f(p);
 }
 
-void add_home(const Domain& domain, const Home& home, int material, Scratch& scratch, CellSums& sums)
+void add_home(const Domain& domain, const OccupiedBlock& occupied, int material, Scratch& scratch,
+              CellSums& sums)
 {
   const Grid& grid = domain.grid;
   const Particles& particles = domain.particles;
   PairTile velocity, sum;
-  read_tile(grid, home.around, grid.velocity_x, grid.velocity_y, velocity);
+  read_tile(grid, occupied.around, grid.velocity_x, grid.velocity_y, velocity);
   sum.value.fill(0);
-  const TileStencils tile(grid, home.block);
-  for_each_particle(home, material,
+  const TileStencils tile(grid, occupied.block);
+  for_each_particle(occupied, material,
                     [&](int p)
                     {
                       const Stencil x = tile.x(particles.x[p]), y = tile.y(particles.y[p]);
@@ -63,17 +64,17 @@ void add_home(const Domain& domain, const Home& home, int material, Scratch& scr
                       sum.value[2 * place] += particles.mass[p];
                       sum.value[2 * place + 1] += particles.mass[p] * scratch.rate[p];
                     });
-  add_tile(grid, home.around, sum, sums.mass, sums.change);
+  add_tile(grid, occupied.around, sum, sums.mass, sums.change);
 }
 
-void apply_home(Domain& domain, const Home& home, int material, const Scratch& scratch, const CellSums& sums,
-                double dt)
+void apply_home(Domain& domain, const OccupiedBlock& occupied, int material, const Scratch& scratch,
+                const CellSums& sums, double dt)
 {
   Particles& particles = domain.particles;
   PairTile sum;
-  read_tile(domain.grid, home.around, sums.mass, sums.change, sum);
+  read_tile(domain.grid, occupied.around, sums.mass, sums.change, sum);
   const double bulk = domain.materials[material].elastic().bulk_modulus();
-  for_each_particle(home, material,
+  for_each_particle(occupied, material,
                     [&](int p)
                     {
                       const double* cell = &sum.value[2 * scratch.place[p]];
@@ -96,9 +97,9 @@ void average_volume_changes(Domain& domain, double dt)
     sums.mass.assign(domain.grid.nodes(), 0.0);
     sums.change.assign(domain.grid.nodes(), 0.0);
     parallel::for_each_in_turn(domain.colours,
-                               [&](int k) { add_home(domain, domain.homes[k], m, scratch, sums); });
+                               [&](int k) { add_home(domain, domain.occupied_blocks[k], m, scratch, sums); });
     parallel::for_each(domain.awake,
-                       [&](int k) { apply_home(domain, domain.homes[k], m, scratch, sums, dt); });
+                       [&](int k) { apply_home(domain, domain.occupied_blocks[k], m, scratch, sums, dt); });
   }
 }
 } // namespace mpm

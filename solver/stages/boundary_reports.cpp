@@ -20,7 +20,7 @@ void report_base(Session& session, const Model& model)
       "base at the end, relative to the free field: left end {:+.4f} m across and {:+.4f} m up, right "
       "end {:+.4f} m and {:+.4f} m, up to {:.4f} m in between; turned by {:+.2e} rad",
       left[0], left[1], right[0], right[1], drift.greatest, drift.rotation);
-  const double bound = base_drift_limit * session.scene.grid.spacing;
+  const double bound = base_drift_limit * session.case_file.grid.spacing;
   const double edge = std::fabs(drift.rotation) * drift.half_length;
   if (drift.greatest <= bound && edge <= bound) return;
   session.log.warn(
@@ -35,7 +35,7 @@ void warn_of_unlike_columns(Session& session, const Model& model)
   constexpr double most = 0.1; // of the column's stress; level layers agree within a few hundredths
   for (const Edge edge : {Edge::left, Edge::right})
   {
-    const double mismatch = side_stress_mismatch(model, session.scene, edge);
+    const double mismatch = side_stress_mismatch(model, session.case_file, edge);
     const char* name = edge == Edge::left ? "left" : "right";
     session.log.detail("{} side: sigma_xx differs from that of its free-field column by {:.1f} %", name,
                        100 * mismatch);
@@ -54,7 +54,7 @@ void report_boundaries(Session& session, const Model& model)
   {
     const double apart = side->separation(*model.main);
     session.log.info("{} side: up to {:.3f} m apart from its column at the end", side->name(), apart);
-    if (apart > 0.5 * session.scene.grid.spacing)
+    if (apart > 0.5 * session.case_file.grid.spacing)
       session.log.warn(
           "the {} side and its free-field column have moved {:.2f} m apart, more than half a cell: the "
           "model yields or sinks near its side; widen the domain or deepen the rock",

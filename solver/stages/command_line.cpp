@@ -1,8 +1,8 @@
 #include "solver/stages/command_line.hpp"
 
-#include "io/error.hpp"
-#include "io/units.hpp"
-#include "io/yaml_tree.hpp"
+#include "io/case/units.hpp"
+#include "io/case/yaml_tree.hpp"
+#include "io/common/error.hpp"
 
 #include <CLI/CLI.hpp>
 

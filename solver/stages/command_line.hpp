@@ -1,7 +1,7 @@
 #pragma once
 // The command line of both programs.
 
-#include "io/log.hpp"
+#include "io/run_folder/log.hpp"
 
 #include <cmath>
 #include <filesystem>
@@ -32,7 +32,7 @@ struct Options
 
   bool seismic() const { return program == "mpm-seismic"; }
   /// The case's key for the Courant number of this stage.
-  const char* safety_key() const { return seismic() ? "time_step.safety" : "static.safety"; }
+  const char* safety_key() const { return seismic() ? "time_step.courant_number" : "static.courant_number"; }
 };
 
 /// Fills `options`, whose `program` says which options there are. Returns an exit code when the command line

@@ -48,7 +48,7 @@ SideLine line_of(const FreeFieldSide& side, const Domain& domain, double size)
   return line;
 }
 
-/// Where a point is and was in the undeformed scene, m.
+/// Where a point is and was in the undeformed ground, m.
 struct Path
 {
   double x, y, reference_x, reference_y;
@@ -57,11 +57,11 @@ struct Path
 /// The edges of the model as they stand now.
 struct Edges
 {
-  const Case& scene;
+  const Case& case_file;
   std::vector<SideLine> sides;
   double base = -INFINITY; ///< y, m
 
-  Edges(const Model& model, const Case& of) : scene(of)
+  Edges(const Model& model, const Case& of) : case_file(of)
   {
     const Domain& main = *model.main;
     const Particles& p = main.particles;
@@ -72,17 +72,17 @@ struct Edges
         const int k = main.place[face.particle];
         moved.push_back({p.x[k] - p.reference_x[k], p.y[k] - p.reference_y[k]});
       }
-    if (model.base) base = scene.domain.bottom;
+    if (model.base) base = case_file.domain.bottom;
     double sunk = INFINITY;
     for (const auto& [x, y] : moved) sunk = std::min(sunk, y);
     if (!moved.empty()) base += sunk;
     for (const FreeFieldSide* side : model.sides)
     {
-      SideLine line = line_of(*side, main, scene.grid.particle_spacing());
+      SideLine line = line_of(*side, main, case_file.grid.particle_spacing());
       if (line.x.empty()) // no ground there
       {
         const bool left = side->edge() == Edge::left;
-        line.y.push_back(scene.domain.bottom);
+        line.y.push_back(case_file.domain.bottom);
         line.x.push_back(position(side->edge()) +
                          (moved.empty() ? 0 : (left ? moved.front() : moved.back())[0]));
       }
@@ -90,17 +90,20 @@ struct Edges
     }
   }
 
-  double position(Edge edge) const { return edge == Edge::left ? scene.domain.left : scene.domain.right; }
+  double position(Edge edge) const
+  {
+    return edge == Edge::left ? case_file.domain.left : case_file.domain.right;
+  }
 
   /// The edge that a point has passed.
   std::optional<Edge> passed(const Path& p) const
   {
-    const double h = scene.grid.spacing;
+    const double h = case_file.grid.spacing;
     const auto grace = [h](double from_edge) { return std::fabs(from_edge) <= own * h ? margin * h : 0; };
     for (const SideLine& side : sides)
       if (side.outward() * (p.x - side.at(p.y)) > grace(p.reference_x - position(side.edge)))
         return side.edge;
-    if (p.y < base - grace(p.reference_y - scene.domain.bottom)) return Edge::bottom;
+    if (p.y < base - grace(p.reference_y - case_file.domain.bottom)) return Edge::bottom;
     return {};
   }
 };
@@ -138,13 +141,13 @@ Departure departure(const Model& model, std::optional<Edge> edge)
 std::vector<Leaving> Departures::find() const
 {
   const Domain& main = *model_.main;
-  const Edges edges(model_, session_.scene);
+  const Edges edges(model_, session_.case_file);
   const Particles& p = main.particles;
   std::vector<Leaving> leaving;
-  for (const Home& home : main.homes)
+  for (const OccupiedBlock& occupied : main.occupied_blocks)
   {
-    if (!may_have_passed(edges, main.grid, home.block)) continue;
-    for (const Range& range : home.ranges)
+    if (!may_have_passed(edges, main.grid, occupied.block)) continue;
+    for (const Range& range : occupied.ranges)
       for (int k = range.begin; k < range.end; ++k)
         if (const auto edge = edges.passed({p.x[k], p.y[k], p.reference_x[k], p.reference_y[k]}))
           leaving.push_back({k, *edge});
@@ -170,16 +173,16 @@ bool Departures::take_out(double time)
 void Departures::lose_gauges(double time)
 {
   Domain& main = *model_.main;
-  if (main.tracers.empty()) return;
-  const Edges edges(model_, session_.scene);
-  for (std::size_t k = 0; k < main.tracers.size(); ++k)
+  if (main.gauges.empty()) return;
+  const Edges edges(model_, session_.case_file);
+  for (std::size_t k = 0; k < main.gauges.size(); ++k)
   {
-    Tracer& t = main.tracers[k];
+    Gauge& t = main.gauges[k];
     const auto edge = edges.passed({t.x, t.y, t.reference_x, t.reference_y});
     if (!edge) continue;
     t.x = t.y = t.velocity_x = t.velocity_y = NAN;
     session_.log.warn("gauge {}: its ground passed the {} at t = {:.2f} s; from then on it has no values",
-                      session_.scene.output.gauges.points[k].name, edge_name(*edge), time);
+                      session_.case_file.output.gauges.points[k].name, edge_name(*edge), time);
   }
 }
 

@@ -4,16 +4,16 @@
 
 namespace mpm
 {
-/// Keeps an eye on the energy ledgers of the model and its columns: they must close, and energy must not come
-/// from nowhere.
+/// Keeps an eye on the energy balances of the model and its columns: they must close, and energy must not
+/// come from nowhere.
 class EnergyWatch
 {
 public:
   EnergyWatch(Session& session, Model& model) : session_(session), model_(model) {}
-  /// Opens the ledgers at the start of a stage.
+  /// Opens the energy balances at the start of a stage.
   void open();
-  /// Warns, once a domain, when a ledger does not close; throws Diverged when energy has grown without a
-  /// source.
+  /// Warns, once a domain, when a energy balance does not close; throws Diverged when energy has grown
+  /// without a source.
   void check(double time);
   /// Tells the log where the energy went, in the model.
   void report() const;
@@ -26,8 +26,8 @@ private:
   std::vector<std::string> warned_; ///< domains
 };
 
-/// Largest residual of a ledger that closes, J per m.
-double closing_bound(const Energies& balance, const Ledger& ledger);
+/// Largest residual of a energy balance that closes, J per m.
+double closing_bound(const Energies& balance, const EnergyBalance& ledger);
 
 /// Throws Diverged when more energy than a tenth of all that was there and was brought has come from nowhere.
 void check_growth(const Domain& domain, const Energies& balance);

@@ -1,6 +1,6 @@
 #include "solver/stages/fidelity.hpp"
 
-#include "boundaries/motion_spectrum.hpp"
+#include "boundaries/ground_motion/spectrum.hpp"
 #include "solver/mpm/dispersion.hpp"
 #include "solver/stages/motion.hpp"
 
@@ -34,7 +34,7 @@ void report_share(Session& session, const Material& material, const Kind& kind, 
     return session.log.info("{}: {:.2g} % of the {} motion's Arias intensity lies above that", material.name,
                             100 * share, kind.component);
   // Both limits go with 1 / h as long as the Courant number stays.
-  const double fine = session.scene.grid.spacing * limit / spectrum.frequency_with_above(much);
+  const double fine = session.case_file.grid.spacing * limit / spectrum.frequency_with_above(much);
   session.log.warn(
       "{}: {:.0f} % of the {} motion's Arias intensity lies above {:.1f} Hz, more than {:.0f} %: the "
       "grid delays and damps these {} waves; cells of {:.2g} m would carry all but {:.0f} %",
@@ -44,10 +44,10 @@ void report_share(Session& session, const Material& material, const Kind& kind, 
 
 void report_wave_fidelity(Session& session, double dt, const IncomingWave* wave)
 {
-  const SeismicSettings& seismic = session.scene.seismic;
-  const Resolution resolution{session.scene.grid.spacing, dt, wave ? seismic.flip_blend : 0,
+  const SeismicSettings& seismic = session.case_file.seismic;
+  const Resolution resolution{session.case_file.grid.spacing, dt, wave ? seismic.flip_blend : 0,
                               wave && seismic.inertia == Inertia::consistent};
-  const GridSettings& grid = session.scene.grid;
+  const GridSettings& grid = session.case_file.grid;
   nlohmann::json& facts = session.facts["resolution"];
   facts = {{"spacing", grid.spacing}, {"particles_per_cell", grid.particles_per_cell}};
   std::array<std::optional<MotionSpectrum>, kinds.size()> spectra;
@@ -55,7 +55,7 @@ void report_wave_fidelity(Session& session, double dt, const IncomingWave* wave)
     if (const auto& motion = wave->*kinds[k].motion)
       spectra[k].emplace(sampled(*motion, planned_fade(seismic.motion), motion->dt,
                                  std::min(seismic.duration, motion->duration())));
-  for (const Material& material : session.scene.materials)
+  for (const Material& material : session.case_file.materials)
   {
     const Elastic& e = material.elastic();
     session.log.info("{}: density {} kg/m3, c_s {:.1f} m/s, c_p {:.1f} m/s", material.name, e.density,
@@ -77,10 +77,11 @@ void report_wave_fidelity(Session& session, double dt, const IncomingWave* wave)
       if (spectra[k]) report_share(session, material, kinds[k], limit, *spectra[k], found);
     }
   }
-  if (wave && session.scene.safety < usual_courant)
-    session.log.warn(
-        "time_step.safety: {} is below {}: waves lose the same in every step, so that numerical damping "
-        "is {:.2g} times that of {}; a smaller step is not a more accurate one",
-        session.scene.safety, usual_courant, usual_courant / session.scene.safety, usual_courant);
+  if (wave && session.case_file.courant_number < usual_courant)
+    session.log.warn("time_step.courant_number: {} is below {}: waves lose the same in every step, so that "
+                     "numerical damping "
+                     "is {:.2g} times that of {}; a smaller step is not a more accurate one",
+                     session.case_file.courant_number, usual_courant,
+                     usual_courant / session.case_file.courant_number, usual_courant);
 }
 } // namespace mpm

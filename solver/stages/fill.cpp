@@ -17,14 +17,14 @@ struct Stretch
   std::vector<Layer> parts;
 };
 
-std::vector<Stretch> stretches(const Case& scene, double left, double right)
+std::vector<Stretch> stretches(const Case& case_file, double left, double right)
 {
   std::vector<Stretch> all;
-  for (const Layer& layer : scene.layers(left, right))
+  for (const Layer& layer : case_file.layers(left, right))
   {
-    const int material = scene.regions[layer.region].material;
+    const int material = case_file.regions[layer.region].material;
     const bool joins = !all.empty() && all.back().material == material &&
-                       layer.bottom - all.back().top <= rounding * scene.grid.particle_spacing();
+                       layer.bottom - all.back().top <= rounding * case_file.grid.particle_spacing();
     if (joins)
       all.back().top = layer.top;
     else
@@ -79,11 +79,11 @@ void note(const Stretch& s, bool filled, double left, double right, std::vector<
 }
 
 /// Where the drawing may have an edge within a column: ends of regions, corners of surfaces.
-std::vector<double> corners(const Case& scene)
+std::vector<double> corners(const Case& case_file)
 {
   std::vector<double> found;
-  for (const Region& region : scene.regions) found.insert(found.end(), {region.left, region.right});
-  for (const Surface& surface : scene.surfaces)
+  for (const Region& region : case_file.regions) found.insert(found.end(), {region.left, region.right});
+  for (const Surface& surface : case_file.surfaces)
     if (const auto* line = std::get_if<Polyline>(&surface.shape))
       found.insert(found.end(), line->x.begin(), line->x.end());
     else
@@ -93,7 +93,7 @@ std::vector<double> corners(const Case& scene)
 }
 
 /// Adds the regions over [left, right], between corners.
-void add_piece(const Case& scene, double left, double right, std::vector<Drawn>& regions)
+void add_piece(const Case& case_file, double left, double right, std::vector<Drawn>& regions)
 {
   constexpr int samples = 2;
   const double part = (right - left) / samples;
@@ -101,7 +101,7 @@ void add_piece(const Case& scene, double left, double right, std::vector<Drawn>&
   {
     const double x = left + (k + 0.5) * part;
     int last = -1; // a region may have two layers at x
-    for (const Layer& layer : scene.layers(x, x))
+    for (const Layer& layer : case_file.layers(x, x))
     {
       regions[layer.region].area += part * (layer.top - layer.bottom);
       if (layer.region != last) regions[layer.region].length += part;
@@ -111,42 +111,43 @@ void add_piece(const Case& scene, double left, double right, std::vector<Drawn>&
 }
 } // namespace
 
-Filling fill(const Case& scene)
+Filling fill(const Case& case_file)
 {
   Filling filling;
-  filling.regions.resize(scene.regions.size());
-  const double d = scene.grid.particle_spacing();
-  const long columns = std::lround(scene.domain.width() / d);
+  filling.regions.resize(case_file.regions.size());
+  const double d = case_file.grid.particle_spacing();
+  const long columns = std::lround(case_file.domain.width() / d);
   for (long column = 0; column < columns; ++column)
   {
-    const double left = scene.domain.left + d * static_cast<double>(column);
-    const std::vector<Stretch> found = stretches(scene, left, left + d);
-    if (found.empty() || found.front().bottom > scene.domain.bottom + d / 2) filling.bare.add(left, left + d);
+    const double left = case_file.domain.left + d * static_cast<double>(column);
+    const std::vector<Stretch> found = stretches(case_file, left, left + d);
+    if (found.empty() || found.front().bottom > case_file.domain.bottom + d / 2)
+      filling.bare.add(left, left + d);
     for (const Stretch& s : found)
-      note(s, fill_stretch(s, left + d / 2, scene.domain.bottom, d, filling.seeds), left, left + d,
+      note(s, fill_stretch(s, left + d / 2, case_file.domain.bottom, d, filling.seeds), left, left + d,
            filling.regions);
   }
   return filling;
 }
 
-std::vector<Drawn> drawn_regions(const Case& scene)
+std::vector<Drawn> drawn_regions(const Case& case_file)
 {
-  std::vector<Drawn> regions(scene.regions.size());
-  const std::vector<double> cuts = corners(scene);
-  const double d = scene.grid.particle_spacing();
-  const long columns = std::lround(scene.domain.width() / d);
+  std::vector<Drawn> regions(case_file.regions.size());
+  const std::vector<double> cuts = corners(case_file);
+  const double d = case_file.grid.particle_spacing();
+  const long columns = std::lround(case_file.domain.width() / d);
   auto cut = cuts.begin();
   for (long column = 0; column < columns; ++column)
   {
-    double left = scene.domain.left + d * static_cast<double>(column);
+    double left = case_file.domain.left + d * static_cast<double>(column);
     const double right = left + d;
     while (cut != cuts.end() && *cut <= left) ++cut;
     for (; cut != cuts.end() && *cut < right; ++cut)
     {
-      if (*cut > left) add_piece(scene, left, *cut, regions);
+      if (*cut > left) add_piece(case_file, left, *cut, regions);
       left = *cut;
     }
-    add_piece(scene, left, right, regions);
+    add_piece(case_file, left, right, regions);
   }
   return regions;
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "io/case.hpp"
+#include "io/case/case.hpp"
 
 #include <vector>
 
@@ -48,7 +48,7 @@ struct Filling
 /// take what the layer has more or less than whole sub-cells and sit at its centroid, so that every column
 /// has the mass of the geometry and not of a staircase. Surfaces enter by their mean height over a column. A
 /// layer thinner than half a sub-cell gets no particle: it is lost.
-Filling fill(const Case& scene);
+Filling fill(const Case& case_file);
 
 /// A region as the case draws it.
 struct Drawn
@@ -58,5 +58,5 @@ struct Drawn
 
 /// All of Case::regions as drawn, whatever the particles: integrals over pieces of columns between the ends
 /// of regions and the corners of surfaces.
-std::vector<Drawn> drawn_regions(const Case& scene);
+std::vector<Drawn> drawn_regions(const Case& case_file);
 } // namespace mpm

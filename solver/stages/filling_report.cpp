@@ -1,6 +1,6 @@
 #include "solver/stages/filling_report.hpp"
 
-#include "io/error.hpp"
+#include "io/common/error.hpp"
 
 #include <fmt/format.h>
 
@@ -12,35 +12,35 @@ constexpr double area_off = 0.05;    // share of a region's area that may be los
 constexpr double length_off = 0.1;   // share of its length over which it may be lost unsaid
 constexpr double cells_to_yield = 4; // across a layer, see SlipWeakening and the verification cases
 
-std::string name_of(const Case& scene, std::size_t region)
+std::string name_of(const Case& case_file, std::size_t region)
 {
-  const Region& r = scene.regions[region];
-  const std::string& material = scene.materials[r.material].name;
-  return r.place.empty() ? fmt::format("regions[{}] ({})", region, material)
-                         : fmt::format("{} ({})", r.place, material);
+  const Region& r = case_file.regions[region];
+  const std::string& material = case_file.materials[r.material].name;
+  return r.location.empty() ? fmt::format("regions[{}] ({})", region, material)
+                         : fmt::format("{} ({})", r.location, material);
 }
 
 /// Cell size with which a layer has a particle, rounded down to two digits.
-double spacing_for(const Case& scene, double thickness)
+double spacing_for(const Case& case_file, double thickness)
 {
-  const double h = 2 * thickness * scene.grid.particles_per_cell;
+  const double h = 2 * thickness * case_file.grid.particles_per_cell;
   const double unit = std::pow(10, std::floor(std::log10(h)) - 1);
   return std::floor(h / unit * (1 + 1e-9)) * unit;
 }
 
-std::string lost_wholly(const Case& scene, std::size_t region, const Drawn& drawn)
+std::string lost_wholly(const Case& case_file, std::size_t region, const Drawn& drawn)
 {
   const double thickness = drawn.area / drawn.length;
   return fmt::format("{}: {:.4g} m2 are drawn, {:.3g} m thick and {:.4g} m long, and no particle stands for "
                      "them: a layer needs "
                      "half a particle spacing, {:.3g} m, in x and in y; make it thicker, leave it out, or "
                      "take grid.spacing {:.2g} m",
-                     name_of(scene, region), drawn.area, thickness, drawn.length,
-                     0.5 * scene.grid.particle_spacing(),
-                     spacing_for(scene, std::min(thickness, drawn.length)));
+                     name_of(case_file, region), drawn.area, thickness, drawn.length,
+                     0.5 * case_file.grid.particle_spacing(),
+                     spacing_for(case_file, std::min(thickness, drawn.length)));
 }
 
-void warn_of_differences(Log& log, const Case& scene, std::size_t region, const Drawn& drawn,
+void warn_of_differences(Log& log, const Case& case_file, std::size_t region, const Drawn& drawn,
                          const RegionFilling& got)
 {
   const double off = got.area / drawn.area - 1;
@@ -53,25 +53,26 @@ void warn_of_differences(Log& log, const Case& scene, std::size_t region, const 
   const bool interrupted = got.lost.length > length_off * (got.lost.length + got.filled.length);
   if (std::fabs(off) <= area_off && !interrupted) return;
   log.warn("{}: its particles have {:.4g} m2 where {:.4g} m2 are drawn ({:+.1f} %){}; use smaller cells",
-           name_of(scene, region), got.area, drawn.area, 100 * off, lost);
+           name_of(case_file, region), got.area, drawn.area, 100 * off, lost);
 }
 
-void warn_of_thinness(Log& log, const Case& scene, std::size_t region, const RegionFilling& got)
+void warn_of_thinness(Log& log, const Case& case_file, std::size_t region, const RegionFilling& got)
 {
-  const Material& material = scene.materials[scene.regions[region].material];
-  const double cells = got.thickness / scene.grid.spacing;
+  const Material& material = case_file.materials[case_file.regions[region].material];
+  const double cells = got.thickness / case_file.grid.spacing;
   if (material.state_fields().empty() || cells >= cells_to_yield * (1 - 1e-9)) return;
   log.warn(
       "{}: can yield, and its layer is {:.2g} cells thick in the mean: across less than {:.0f} the sides of "
       "a "
       "layer reach and hold each other, so that it slips too late and too little (with four cells a block "
       "slides a quarter short); use smaller cells or a thicker layer",
-      name_of(scene, region), cells, cells_to_yield);
+      name_of(case_file, region), cells, cells_to_yield);
 }
 
-void warn_of_bare_base(Log& log, const Case& scene, const Span& bare)
+void warn_of_bare_base(Log& log, const Case& case_file, const Span& bare)
 {
-  if (bare.length == 0 || scene.seismic.duration == 0 || scene.seismic.base == BaseKind::fixed) return;
+  if (bare.length == 0 || case_file.seismic.duration == 0 || case_file.seismic.base == BaseKind::fixed)
+    return;
   log.warn("regions: no ground lies on the base over {:.4g} m, between x = {:.4g} m and {:.4g} m: ground "
            "that comes "
            "there falls out of the model; let a layer cover the base, or take seismic.base.kind fixed",
@@ -79,26 +80,26 @@ void warn_of_bare_base(Log& log, const Case& scene, const Span& bare)
 }
 } // namespace
 
-void report_filling(Log& log, const Case& scene, const Filling& filling)
+void report_filling(Log& log, const Case& case_file, const Filling& filling)
 {
-  const std::vector<Drawn> drawn = drawn_regions(scene);
-  const double particle = scene.grid.particle_spacing() * scene.grid.particle_spacing();
+  const std::vector<Drawn> drawn = drawn_regions(case_file);
+  const double particle = case_file.grid.particle_spacing() * case_file.grid.particle_spacing();
   std::string lost;
   for (std::size_t k = 0; k < drawn.size(); ++k)
   {
     const RegionFilling& got = filling.regions[k];
     if (got.area > 0 && drawn[k].area > 0)
     {
-      warn_of_differences(log, scene, k, drawn[k], got);
-      warn_of_thinness(log, scene, k, got);
+      warn_of_differences(log, case_file, k, drawn[k], got);
+      warn_of_thinness(log, case_file, k, got);
     }
     else if (drawn[k].area >= particle / 2)
-      lost += (lost.empty() ? "" : "\n") + lost_wholly(scene, k, drawn[k]);
+      lost += (lost.empty() ? "" : "\n") + lost_wholly(case_file, k, drawn[k]);
     else if (drawn[k].area > 0)
-      log.warn("{}: is smaller than half a particle, {:.2g} m2, and has none", name_of(scene, k),
+      log.warn("{}: is smaller than half a particle, {:.2g} m2, and has none", name_of(case_file, k),
                drawn[k].area);
   }
   if (!lost.empty()) throw Error(exit_code::bad_input, lost);
-  warn_of_bare_base(log, scene, filling.bare);
+  warn_of_bare_base(log, case_file, filling.bare);
 }
 } // namespace mpm

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "io/log.hpp"
+#include "io/run_folder/log.hpp"
 #include "solver/stages/fill.hpp"
 
 namespace mpm
@@ -9,5 +9,5 @@ namespace mpm
 /// that have more than a few per cent more or less area than drawn, or are too thin to yield as they should,
 /// and of a base without ground. Throws Error (bad_input) when a region that the case draws has no particle
 /// at all.
-void report_filling(Log& log, const Case& scene, const Filling& filling);
+void report_filling(Log& log, const Case& case_file, const Filling& filling);
 } // namespace mpm

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "io/case.hpp"
-#include "io/hdf5.hpp"
+#include "io/case/case.hpp"
+#include "io/results/hdf5.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // What makes a run this run and no other: its settings with every default written out. Left out is what
 // changes no result, or is told by something else that is in.
 
-#include "io/units.hpp"
+#include "io/case/units.hpp"
 #include "solver/stages/session.hpp"
 
 #include <algorithm>
@@ -44,49 +44,49 @@ std::string rounded(const std::string& value)
 }
 
 /// The kinds of base and sides, which the case need not give.
-RunFolder::Identity edges(const Case& scene)
+RunFolder::Identity edges(const Case& case_file)
 {
   static constexpr std::array bases{"compliant", "fixed"};
   static constexpr std::array sides{"free_field", "quiet", "roller"};
-  return {{"seismic.base.kind", bases.at(static_cast<std::size_t>(scene.seismic.base))},
-          {"seismic.sides.kind", sides.at(static_cast<std::size_t>(scene.seismic.sides))}};
+  return {{"seismic.base.kind", bases.at(static_cast<std::size_t>(case_file.seismic.base))},
+          {"seismic.sides.kind", sides.at(static_cast<std::size_t>(case_file.seismic.sides))}};
 }
 } // namespace
 
-RunFolder::Identity static_settings(const Case& scene)
+RunFolder::Identity static_settings(const Case& case_file)
 {
   RunFolder::Identity identity{{"stage", "static"}};
-  for (const auto& [key, value] : scene.settings)
+  for (const auto& [key, value] : case_file.settings)
   {
     const bool of_the_shaking = key.starts_with("seismic.") || key.starts_with("time_step.");
     if (!is_label(key) && !of_the_shaking && !key.starts_with("output."))
       identity.emplace_back(key, rounded(value));
   }
-  for (auto& edge : edges(scene)) identity.push_back(std::move(edge)); // they make the columns
+  for (auto& edge : edges(case_file)) identity.push_back(std::move(edge)); // they make the columns
   return identity;
 }
 
-RunFolder::Identity seismic_settings(const Case& scene)
+RunFolder::Identity seismic_settings(const Case& case_file)
 {
   RunFolder::Identity identity{{"stage", "seismic"}};
-  for (const auto& [key, value] : scene.settings)
+  for (const auto& [key, value] : case_file.settings)
   {
     const bool when_not_what = key.starts_with("output.checkpoint.");
     const bool of_the_state = key.starts_with("static.") && key != "static.gravity"; // its digest tells it
     if (is_label(key) || when_not_what || of_the_state || tells_record(key)) continue;
     const bool counts = key == "seismic.duration"; // it may have been told otherwise
-    identity.emplace_back(key,
-                          rounded(counts ? quantity_text(scene.seismic.duration, Dimension::time) : value));
+    identity.emplace_back(
+        key, rounded(counts ? quantity_text(case_file.seismic.duration, Dimension::time) : value));
   }
   return identity;
 }
 
-std::vector<std::string> ground_settings(const Case& scene)
+std::vector<std::string> ground_settings(const Case& case_file)
 {
   std::vector<std::string> lines;
-  for (const auto& [key, value] : scene.settings)
+  for (const auto& [key, value] : case_file.settings)
     if (shapes_ground(key)) lines.push_back(key + " = " + rounded(value));
-  for (const auto& [key, value] : edges(scene)) lines.push_back(key + " = " + value);
+  for (const auto& [key, value] : edges(case_file)) lines.push_back(key + " = " + value);
   std::ranges::sort(lines);
   return lines;
 }
@@ -94,14 +94,14 @@ std::vector<std::string> ground_settings(const Case& scene)
 std::string Session::resolved_case() const
 {
   Settings settings;
-  for (const auto& [key, value] : scene.settings) settings.set(key, value);
+  for (const auto& [key, value] : case_file.settings) settings.set(key, value);
   for (const auto& [key, file] :
        {std::pair{horizontal, options.motion}, std::pair{vertical, options.vertical}})
   {
     const std::string record(key);
     if (!file.empty())
     {
-      for (const auto& [path, value] : scene.settings)
+      for (const auto& [path, value] : case_file.settings)
         if (path.starts_with(record)) settings.drop(path);
       settings.set(record + ".file", std::filesystem::absolute(file).string());
       settings.set(record + ".format", options.record_format.empty() ? "auto" : options.record_format);

@@ -23,9 +23,9 @@ double hat_below(double t)
 class Surroundings
 {
 public:
-  Surroundings(const Case& scene, const std::vector<Seed>& seeds, std::size_t materials)
-      : seeds_(seeds), left_(scene.domain.left), size_(scene.grid.particle_spacing()),
-        hat_(reach * scene.grid.spacing), materials_(materials)
+  Surroundings(const Case& case_file, const std::vector<Seed>& seeds, std::size_t materials)
+      : seeds_(seeds), left_(case_file.domain.left), size_(case_file.grid.particle_spacing()),
+        hat_(reach * case_file.grid.spacing), materials_(materials)
   {
     for (std::size_t k = 0; k < seeds.size(); ++k)
     {
@@ -105,10 +105,10 @@ Material mix(const std::vector<Material>& materials, int own, const std::vector<
 }
 } // namespace
 
-void average_interfaces(const Case& scene, std::vector<Seed>& seeds, std::vector<Material>& materials)
+void average_interfaces(const Case& case_file, std::vector<Seed>& seeds, std::vector<Material>& materials)
 {
   const std::vector<Seed> pure = seeds;
-  const Surroundings surroundings(scene, pure, scene.materials.size());
+  const Surroundings surroundings(case_file, pure, case_file.materials.size());
   std::map<std::pair<int, std::vector<int>>, int> known;
   for (Seed& seed : seeds)
   {
@@ -118,7 +118,7 @@ void average_interfaces(const Case& scene, std::vector<Seed>& seeds, std::vector
     const auto [at, is_new] = known.try_emplace({own, shares}, static_cast<int>(materials.size()));
     if (is_new)
     {
-      materials.push_back(mix(scene.materials, own, shares, scene.grid.spacing));
+      materials.push_back(mix(case_file.materials, own, shares, case_file.grid.spacing));
       materials.back().name += " ~" + std::to_string(known.size());
     }
     seed.material = at->second;

@@ -11,5 +11,5 @@ namespace mpm
 /// strength and history stay the material's own. `materials` grows by one for each mixture, in steps of a
 /// sixteenth; its Material::origin tells whose it is. A law that would not admit the mixture's moduli keeps
 /// its own.
-void average_interfaces(const Case& scene, std::vector<Seed>& seeds, std::vector<Material>& materials);
+void average_interfaces(const Case& case_file, std::vector<Seed>& seeds, std::vector<Material>& materials);
 } // namespace mpm

@@ -30,29 +30,29 @@ void plant(Domain& domain, const std::vector<Material>& materials, std::vector<S
 }
 
 /// The column of a side: the model's outermost column of particles, in a grid one cell wide.
-std::unique_ptr<FreeFieldColumn> make_column(const Case& scene, const std::vector<Material>& materials,
+std::unique_ptr<FreeFieldColumn> make_column(const Case& case_file, const std::vector<Material>& materials,
                                              const std::vector<Seed>& seeds, Edge edge)
 {
-  const double size = scene.grid.particle_spacing();
-  const double side = edge == Edge::left ? scene.domain.left : scene.domain.right;
+  const double size = case_file.grid.particle_spacing();
+  const double side = edge == Edge::left ? case_file.domain.left : case_file.domain.right;
   std::vector<Seed> rows;
   for (const Seed& seed : seeds)
     if (std::fabs(seed.x - side) < 0.75 * size) rows.push_back(seed);
   if (rows.empty()) return nullptr;
   auto domain = std::make_unique<Domain>();
   domain->name = edge == Edge::left ? "left column" : "right column";
-  domain->grid.spacing = scene.grid.spacing;
-  domain->grid.origin_x = edge == Edge::left ? side : side - scene.grid.spacing;
-  domain->grid.origin_y = scene.domain.bottom;
+  domain->grid.spacing = case_file.grid.spacing;
+  domain->grid.origin_x = edge == Edge::left ? side : side - case_file.grid.spacing;
+  domain->grid.origin_y = case_file.domain.bottom;
   domain->grid.wrapped = true;
   plant(*domain, materials, rows);
   sort_particles(*domain);
   return std::make_unique<FreeFieldColumn>(std::move(domain), side);
 }
 
-int cells_across(const Case& scene)
+int cells_across(const Case& case_file)
 {
-  return static_cast<int>(std::lround(scene.domain.width() / scene.grid.spacing));
+  return static_cast<int>(std::lround(case_file.domain.width() / case_file.grid.spacing));
 }
 
 Wall bottom_wall()
@@ -63,9 +63,9 @@ Wall left_wall()
 {
   return {Direction::x, 0, 1, true};
 }
-Wall right_wall(const Case& scene)
+Wall right_wall(const Case& case_file)
 {
-  return {Direction::x, cells_across(scene), -1, true};
+  return {Direction::x, cells_across(case_file), -1, true};
 }
 
 void add_walls(Domain& domain, std::span<const Wall> walls)
@@ -85,7 +85,7 @@ void come_to_rest(Domain& domain)
 
 /// Walls that stay, images for those that leave, and the compliant base, which is returned (null: there is
 /// none).
-CompliantBase* switch_boundaries(Domain& domain, const Case& scene, std::span<const Wall> leaving,
+CompliantBase* switch_boundaries(Domain& domain, const Case& case_file, std::span<const Wall> leaving,
                                  std::span<const Wall> staying,
                                  const std::shared_ptr<const IncomingWave>& wave, BaseSpring spring,
                                  bool restarting)
@@ -95,10 +95,10 @@ CompliantBase* switch_boundaries(Domain& domain, const Case& scene, std::span<co
   domain.boundaries.clear();
   domain.boundaries.push_back(std::make_unique<FrozenImages>(std::move(images)));
   add_walls(domain, staying);
-  if (scene.seismic.base == BaseKind::fixed) return nullptr;
+  if (case_file.seismic.base == BaseKind::fixed) return nullptr;
   std::vector<Face> faces;
   if (!restarting)
-    faces = find_faces(domain, Edge::bottom, scene.domain.bottom, scene.grid.particle_spacing());
+    faces = find_faces(domain, Edge::bottom, case_file.domain.bottom, case_file.grid.particle_spacing());
   auto base = std::make_unique<CompliantBase>(std::move(faces), wave, std::move(spring));
   CompliantBase* const result = base.get();
   domain.boundaries.push_back(std::move(base));
@@ -106,49 +106,50 @@ CompliantBase* switch_boundaries(Domain& domain, const Case& scene, std::span<co
 }
 } // namespace
 
-Model make_model(const Case& scene)
+Model make_model(const Case& case_file)
 {
   Model model;
-  model.filling = fill(scene);
+  model.filling = fill(case_file);
   std::vector<Seed> seeds = std::move(model.filling.seeds);
-  std::vector<Material> materials = scene.materials;
-  if (scene.grid.interfaces == Interfaces::averaged) average_interfaces(scene, seeds, materials);
+  std::vector<Material> materials = case_file.materials;
+  if (case_file.grid.interfaces == Interfaces::averaged) average_interfaces(case_file, seeds, materials);
   model.main = std::make_unique<Domain>();
   Domain& main = *model.main;
-  main.name = scene.name;
-  main.grid.spacing = scene.grid.spacing;
-  main.grid.origin_x = scene.domain.left;
-  main.grid.origin_y = scene.domain.bottom;
+  main.name = case_file.name;
+  main.grid.spacing = case_file.grid.spacing;
+  main.grid.origin_x = case_file.domain.left;
+  main.grid.origin_y = case_file.domain.bottom;
   plant(main, materials, seeds);
   model.reference_volume = main.particles.volume;
   sort_particles(main);
-  if (scene.seismic.sides == SideKind::free_field)
+  if (case_file.seismic.sides == SideKind::free_field)
   {
-    model.left = make_column(scene, materials, seeds, Edge::left);
-    model.right = make_column(scene, materials, seeds, Edge::right);
+    model.left = make_column(case_file, materials, seeds, Edge::left);
+    model.right = make_column(case_file, materials, seeds, Edge::right);
   }
   model.for_each_domain([&](Domain& domain, const std::string&)
-                        { domain.average_volume = scene.grid.average_volume; });
+                        { domain.average_volume = case_file.grid.average_volume; });
   return model;
 }
 
-void add_static_boundaries(Model& model, const Case& scene)
+void add_static_boundaries(Model& model, const Case& case_file)
 {
   model.for_each_domain(
       [&](Domain& domain, const std::string& column)
       {
         std::vector<Wall> walls{bottom_wall()};
-        if (column.empty()) walls.insert(walls.end(), {left_wall(), right_wall(scene)});
+        if (column.empty()) walls.insert(walls.end(), {left_wall(), right_wall(case_file)});
         add_walls(domain, walls);
-        domain.damping = scene.statics.damping;
+        domain.damping = case_file.static_stage.damping;
         rebuild(domain);
       });
 }
 
-void add_seismic_boundaries(Model& model, const Case& scene, std::shared_ptr<const IncomingWave> wave,
+void add_seismic_boundaries(Model& model, const Case& case_file, std::shared_ptr<const IncomingWave> wave,
                             bool restarting)
 {
-  const bool fixed = scene.seismic.base == BaseKind::fixed, roller = scene.seismic.sides == SideKind::roller;
+  const bool fixed = case_file.seismic.base == BaseKind::fixed,
+             roller = case_file.seismic.sides == SideKind::roller;
   model.for_each_domain(
       [&](Domain& domain, const std::string& column)
       {
@@ -157,16 +158,16 @@ void add_seismic_boundaries(Model& model, const Case& scene, std::shared_ptr<con
         if (column.empty())
         {
           auto& walls = roller ? staying : leaving;
-          walls.insert(walls.end(), {left_wall(), right_wall(scene)});
+          walls.insert(walls.end(), {left_wall(), right_wall(case_file)});
         }
         domain.damping = 0;
-        domain.consistent_inertia = scene.seismic.inertia == Inertia::consistent;
-        domain.gravity_y = -scene.statics.gravity;
+        domain.consistent_inertia = case_file.seismic.inertia == Inertia::consistent;
+        domain.gravity_y = -case_file.static_stage.gravity;
         domain.plastic = true;
         // A column goes where the input takes it, with nothing on one side of it that could push it away.
-        const BaseSpring spring(column.empty() ? spring_time(scene) : 0);
+        const BaseSpring spring(column.empty() ? spring_time(case_file) : 0);
         CompliantBase* const base =
-            switch_boundaries(domain, scene, leaving, staying, wave, spring, restarting);
+            switch_boundaries(domain, case_file, leaving, staying, wave, spring, restarting);
         if (column.empty())
           model.base = base;
         else
@@ -177,8 +178,9 @@ void add_seismic_boundaries(Model& model, const Case& scene, std::shared_ptr<con
     {
       const FreeFieldColumn* column = (edge == Edge::left ? model.left : model.right).get();
       auto side = std::make_unique<FreeFieldSide>(edge, column, wave);
-      const double position = edge == Edge::left ? scene.domain.left : scene.domain.right;
-      if (!restarting) side->begin(*model.main, position, scene.domain.bottom, scene.grid.particle_spacing());
+      const double position = edge == Edge::left ? case_file.domain.left : case_file.domain.right;
+      if (!restarting)
+        side->begin(*model.main, position, case_file.domain.bottom, case_file.grid.particle_spacing());
       model.sides.push_back(side.get());
       model.main->boundaries.push_back(std::move(side));
     }
@@ -199,21 +201,21 @@ std::vector<FreeFieldBase> free_field_base(const Model& model)
   return result;
 }
 
-double spring_time(const Case& scene)
+double spring_time(const Case& case_file)
 {
-  return scene.seismic.spring.value_or(scene.longest_period());
+  return case_file.seismic.spring.value_or(case_file.longest_period());
 }
 
-double side_stress_mismatch(const Model& model, const Case& scene, Edge edge)
+double side_stress_mismatch(const Model& model, const Case& case_file, Edge edge)
 {
   const FreeFieldColumn* column = (edge == Edge::left ? model.left : model.right).get();
   if (!column) return 0;
   const Particles &p = model.main->particles, &q = column->domain->particles;
-  const double side = edge == Edge::left ? scene.domain.left : scene.domain.right;
+  const double side = edge == Edge::left ? case_file.domain.left : case_file.domain.right;
   double difference = 0, scale = 0;
   for (int k = 0; k < p.size(); ++k)
   {
-    if (std::fabs(p.reference_x[k] - side) > 0.75 * scene.grid.particle_spacing()) continue;
+    if (std::fabs(p.reference_x[k] - side) > 0.75 * case_file.grid.particle_spacing()) continue;
     const double wanted = q.stress_xx[column->particle_of_row(column->row_near(p.reference_y[k]))];
     difference += std::fabs(p.stress_xx[k] - wanted);
     scale += std::fabs(wanted);

@@ -1,8 +1,8 @@
 #include "solver/stages/motion.hpp"
 
 #include "built_in.hpp"
-#include "io/history.hpp"
-#include "io/record_reader.hpp"
+#include "io/records/reader.hpp"
+#include "io/results/history.hpp"
 
 #include <algorithm>
 #include <array>
@@ -121,14 +121,15 @@ void report_correction(Session& session, const std::string& component, const Mot
 void report_applied(Session& session, const std::string& component, const GroundMotion& motion,
                     nlohmann::json& facts)
 {
-  const double duration = session.scene.seismic.duration;
-  const Fade fade = planned_fade(session.scene.seismic.motion);
+  const double duration = session.case_file.seismic.duration;
+  const Fade fade = planned_fade(session.case_file.seismic.motion);
   const MotionMeasures whole = measures_applied(motion, fade, motion.duration()),
                        applied = measures_applied(motion, fade, duration);
   const std::string source = facts["source"].get<std::string>();
   session.log.info("{} motion {} ({}) as applied until {:g} s{}: {}", component, source,
                    facts["recorded_as"].get<std::string>(), duration,
-                   session.scene.seismic.motion.end == MotionEnd::self_driven ? " if it goes on so long" : "",
+                   session.case_file.seismic.motion.end == MotionEnd::self_driven ? " if it goes on so long"
+                                                                                  : "",
                    words(applied));
   const double beyond = whole.arias > 0 ? 1 - applied.arias / whole.arias : 0;
   facts["arias_share_beyond_end"] = beyond;
@@ -154,7 +155,7 @@ std::optional<GroundMotion> load(Session& session, const std::string& component,
     source->record = {replacement, format, options.record_dt, options.record_unit, std::nullopt, "", part};
   }
   if (!source) return std::nullopt;
-  MotionProcessing processing = session.scene.seismic.motion.processing;
+  MotionProcessing processing = session.case_file.seismic.motion.processing;
   processing.scale = source->scale * options.scale;
   const Record record = read(*source);
   GroundMotion result;
@@ -185,13 +186,13 @@ bool motion_given(const Session& session)
 {
   const Options& options = session.options;
   return !options.motion.empty() || !options.vertical.empty() || options.scale != 1 ||
-         session.scene.seismic.motion.given;
+         session.case_file.seismic.motion.given;
 }
 
 /// Refuses a record whose step is so small that a run cannot hold what it applies.
 void check_samples(const Session& session, const IncomingWave& wave)
 {
-  const double step = common_step(wave), duration = session.scene.seismic.duration;
+  const double step = common_step(wave), duration = session.case_file.seismic.duration;
   if (step == 0 || duration / step < most_samples) return;
   throw Error(
       exit_code::bad_input,
@@ -204,7 +205,7 @@ void check_samples(const Session& session, const IncomingWave& wave)
 /// The run's length, where it goes with the record.
 void settle_duration(Session& session, const IncomingWave& wave)
 {
-  SeismicSettings& seismic = session.scene.seismic;
+  SeismicSettings& seismic = session.case_file.seismic;
   if (std::isnan(seismic.after_record)) return;
   seismic.duration = wave.records_end() + seismic.after_record;
   session.log.info("seismic.duration: {:g} s of record and {:g} s after it, {:g} s", wave.records_end(),
@@ -233,7 +234,7 @@ void report_what_was_applied(Session& session, const Motion& motion, double unti
 
 Motion load_motion(Session& session)
 {
-  const SeismicSettings& seismic = session.scene.seismic;
+  const SeismicSettings& seismic = session.case_file.seismic;
   const MotionSettings& settings = seismic.motion;
   const Options& options = session.options;
   Motion motion;

@@ -1,6 +1,6 @@
 #include "solver/stages/observer.hpp"
 
-#include "io/frames.hpp"
+#include "io/results/frames.hpp"
 #include "solver/stages/motion.hpp"
 
 #include <algorithm>
@@ -79,7 +79,7 @@ std::vector<Frame::Field> invariants_of(const Frame::Field& stress)
 } // namespace
 
 Observer::Observer(Session& session, Model& model, const IncomingWave& wave)
-    : session_(session), model_(model), wave_(wave), slide_(model, session.scene)
+    : session_(session), model_(model), wave_(wave), slide_(model, session.case_file)
 {
   add_series();
 }
@@ -89,7 +89,7 @@ void Observer::add_series()
   const Axis component{"component", {"x", "y"}};
   fast_ = 0;
   slow_ = history_.add_clock();
-  const auto& points = session_.scene.output.gauges.points;
+  const auto& points = session_.case_file.output.gauges.points;
   if (!points.empty())
   {
     Axis gauge{"gauge", {}};
@@ -110,37 +110,37 @@ void Observer::add_series()
                       history_.add_series(group + "base_velocity", "m/s", {component}, fast_)});
   }
   slide_.add_series(history_, slow_);
-  add_ledgers();
-  if (session_.scene.seismic.base == BaseKind::fixed) return;
+  add_energy_series();
+  if (session_.case_file.seismic.base == BaseKind::fixed) return;
   corner_ =
       history_.add_series("base/corner_displacement", "m", {{"corner", {"left", "right"}}, component}, slow_);
   rotation_ = history_.add_series("base/rotation", "rad", {}, slow_);
   greatest_drift_ = history_.add_series("base/greatest_displacement", "m", {}, slow_);
 }
 
-void Observer::add_ledgers()
+void Observer::add_energy_series()
 {
   model_.for_each_domain(
       [&](Domain& domain, const std::string& column)
       {
         const std::string group = column.empty() ? "energy/" : "energy/" + column + "/";
-        LedgerSeries ledger{&domain, {}, 0};
+        EnergySeries ledger{&domain, {}, 0};
         for (std::size_t k = 0; k < energy_terms.size(); ++k)
           ledger.terms[k] = history_.add_series(group + std::string(energy_terms[k].name), "J/m", {}, slow_);
         ledger.residual = history_.add_series(group + "residual", "J/m", {}, slow_);
-        ledgers_.push_back(ledger);
+        energy_series_.push_back(ledger);
       });
 }
 
 void Observer::place_gauges()
 {
-  const Case& scene = session_.scene;
+  const Case& case_file = session_.case_file;
   Domain& main = *model_.main;
-  // A gauge belongs to the material point that was at its place in the undeformed scene: it stands where the
+  // A gauge belongs to the material point that was at its place in the undeformed ground: it stands where the
   // nearest particle has settled to, and its displacement counts from there.
-  for (const GaugePoint& point : scene.output.gauges.points)
+  for (const GaugePoint& point : case_file.output.gauges.points)
   {
-    const double y = std::min(point.y, scene.ground_height(point.x));
+    const double y = std::min(point.y, case_file.ground_height(point.x));
     if (y < point.y)
       session_.log.info("gauge {}: {:.3f} m above the ground, moved down to y = {:.3f} m", point.name,
                         point.y - y, y);
@@ -150,13 +150,13 @@ void Observer::place_gauges()
     for (int k = 1; k < p.size(); ++k)
       if (distance(k) < distance(nearest)) nearest = k;
     const auto [ux, uy] = displacement_of(main, nearest);
-    main.tracers.push_back({point.x + ux, y + uy, point.x + ux, y + uy, 0, 0});
+    main.gauges.push_back({point.x + ux, y + uy, point.x + ux, y + uy, 0, 0});
   }
 }
 
 void Observer::look(const Clock& clock, bool first)
 {
-  const OutputSettings& output = session_.scene.output;
+  const OutputSettings& output = session_.case_file.output;
   if (first || clock.passed(output.gauges.every)) sample_gauges(clock);
   if (first || clock.passed(slide_every)) sample_slide(clock);
   if (first || clock.passed(output.frames.every)) write_frame(clock);
@@ -172,7 +172,7 @@ void Observer::sample_gauges(const Clock& clock)
 {
   history_.start_row(clock.time(), fast_);
   std::vector<double> u, v, a;
-  for (const Tracer& t : model_.main->tracers)
+  for (const Gauge& t : model_.main->gauges)
   {
     u.insert(u.end(), {t.x - t.reference_x, t.y - t.reference_y});
     v.insert(v.end(), {t.velocity_x, t.velocity_y});
@@ -210,9 +210,9 @@ void Observer::sample_slide(const Clock& clock)
 
 void Observer::sample_energy()
 {
-  for (const LedgerSeries& ledger : ledgers_)
+  for (const EnergySeries& ledger : energy_series_)
   {
-    const Energies e = energy_balance(*ledger.domain);
+    const Energies e = energies_of(*ledger.domain);
     for (std::size_t k = 0; k < energy_terms.size(); ++k) history_.record(ledger.terms[k], e.value[k]);
     history_.record(ledger.residual, residual(e));
   }
@@ -237,7 +237,7 @@ void Observer::write_frame(const Clock& clock)
   frame.step = clock.step;
   for (int k = 0; k < main.particles.size(); ++k)
     frame.points.insert(frame.points.end(), {main.particles.x[k], main.particles.y[k], 0});
-  std::vector<std::string> fields = session_.scene.output.frames.fields;
+  std::vector<std::string> fields = session_.case_file.output.frames.fields;
   if (std::find(fields.begin(), fields.end(), "volume") == fields.end()) fields.push_back("volume");
   for (const std::string& name : fields) frame.fields.push_back(frame_field(main, name));
   if (const auto stress = std::find(fields.begin(), fields.end(), "stress"); stress != fields.end())
@@ -249,7 +249,7 @@ void Observer::write_frame(const Clock& clock)
     std::fill(frame.materials.begin() + main.material_begin[m],
               frame.materials.begin() + main.material_begin[m + 1],
               main.materials[m].origin < 0 ? m : main.materials[m].origin);
-  for (const Material& material : session_.scene.materials) frame.material_names.push_back(material.name);
+  for (const Material& material : session_.case_file.materials) frame.material_names.push_back(material.name);
   const std::string name = frame_name(static_cast<std::int64_t>(frames_.size()));
   const std::string digest = mpm::write_frame(*session_.folder / name, frame, session_.provenance());
   frames_.push_back({name, clock.time(), digest});
@@ -289,7 +289,7 @@ void Observer::write(double until) const
   history_.write(*session_.folder / "history.h5", session_.provenance(),
                  [&](h5::File& file)
                  {
-                   write_motion(file, wave_, session_.scene.output.gauges.every, until);
+                   write_motion(file, wave_, session_.case_file.output.gauges.every, until);
                    slide_.write(file);
                  });
 }
@@ -297,10 +297,10 @@ void Observer::write(double until) const
 nlohmann::json Observer::summary() const
 {
   nlohmann::json gauges;
-  const auto& points = session_.scene.output.gauges.points;
+  const auto& points = session_.case_file.output.gauges.points;
   for (std::size_t g = 0; g < points.size(); ++g)
   {
-    const Tracer& t = model_.main->tracers[g];
+    const Gauge& t = model_.main->gauges[g];
     gauges[points[g].name] = {{"displacement", {t.x - t.reference_x, t.y - t.reference_y}}};
   }
   nlohmann::json result{{"slide", slide_.summary()}, {"gauges", gauges}};
@@ -309,7 +309,7 @@ nlohmann::json Observer::summary() const
   result["base"] = {{"corner_displacement", {{"left", drift.corner[0]}, {"right", drift.corner[1]}}},
                     {"rotation", drift.rotation},
                     {"greatest_displacement", drift.greatest},
-                    {"spring_time", spring_time(session_.scene)}};
+                    {"spring_time", spring_time(session_.case_file)}};
   return result;
 }
 } // namespace mpm

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "io/history.hpp"
+#include "io/results/history.hpp"
 #include "solver/stages/session.hpp"
 #include "solver/stages/slide.hpp"
 
@@ -38,15 +38,15 @@ private:
     const FreeFieldColumn* column;
     History::Series surface_displacement, surface_velocity, base_displacement, base_velocity;
   };
-  /// The ledger of a domain as series.
-  struct LedgerSeries
+  /// The energy balance of a domain as series.
+  struct EnergySeries
   {
     const Domain* domain;
     std::array<History::Series, energy_terms.size()> terms;
     History::Series residual;
   };
   void add_series();
-  void add_ledgers();
+  void add_energy_series();
   void sample_gauges(const Clock& clock);
   void sample_slide(const Clock& clock);
   void sample_energy();
@@ -61,7 +61,7 @@ private:
   History::Clock fast_ = 0, slow_ = 0;
   History::Series displacement_ = 0, velocity_ = 0, acceleration_ = 0;
   Slide slide_;
-  std::vector<LedgerSeries> ledgers_;
+  std::vector<EnergySeries> energy_series_;
   History::Series corner_ = 0, rotation_ = 0, greatest_drift_ = 0;
   std::vector<Side> sides_;
   std::vector<double> last_velocity_; ///< of the gauges at their last sample, m/s

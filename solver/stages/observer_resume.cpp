@@ -1,6 +1,6 @@
 // What a run has written down, taken up again: it must be what a run of this case writes until then.
 
-#include "io/frames.hpp"
+#include "io/results/frames.hpp"
 #include "solver/stages/observer.hpp"
 
 #include <cmath>
@@ -46,18 +46,18 @@ bool is_frame(const std::filesystem::path& file, const std::string& digest)
 void Observer::load(const h5::File& file, const Clock& clock, double first_step)
 {
   const h5::Group group = file.open_group("output");
-  const OutputSettings& output = session_.scene.output;
+  const OutputSettings& output = session_.case_file.output;
   history_.load(group.open_group("history"));
   check_times(group, "history", history_.times(fast_), output.gauges.every + first_step, clock.time());
   check_times(group, "history", history_.times(slow_), slide_every + first_step, clock.time());
   last_velocity_ = group.read_doubles("gauge_velocity");
   last_time_ = group.attribute_double("gauge_time");
   const std::size_t gauges = output.gauges.points.size();
-  if (model_.main->tracers.size() != gauges || last_velocity_.size() != 2 * gauges ||
+  if (model_.main->gauges.size() != gauges || last_velocity_.size() != 2 * gauges ||
       last_time_ != history_.times(fast_).back())
     refuse(group, "gauge_velocity", "is that of other gauges");
   for (std::size_t k = 0; k < last_velocity_.size(); ++k)
-    if (!std::isfinite(last_velocity_[k]) && !std::isnan(model_.main->tracers[k / 2].x))
+    if (!std::isfinite(last_velocity_[k]) && !std::isnan(model_.main->gauges[k / 2].x))
       refuse(group, "gauge_velocity", "is not finite");
   slide_.load(group.open_group("slide"), clock.time());
   const std::vector<double> times = group.read_doubles("frame_times");

@@ -1,7 +1,7 @@
 #include "solver/stages/predict.hpp"
 
-#include "io/case_size.hpp"
-#include "io/memory.hpp"
+#include "io/case/size.hpp"
+#include "io/common/memory.hpp"
 #include "solver/mpm/parallel.hpp"
 
 namespace mpm
@@ -13,14 +13,14 @@ constexpr double usual_ramps = 2; // after which a slope that stands has settled
 
 void report_memory(Session& session, const Model& model)
 {
-  CaseSize size = expected_size(session.scene);
+  CaseSize size = expected_size(session.case_file);
   size.particles = model.main->particles.size();
   size.nodes = model.main->grid.nodes();
-  const double needed = memory_needed(size, session.scene);
+  const double needed = memory_needed(size, session.case_file);
   const FreeMemory free = free_memory();
   session.log.info("{} particles, about {} of memory and {} a checkpoint; {} {}",
                    model.main->particles.size(), bytes_text(needed),
-                   bytes_text(checkpoint_bytes(size.particles, session.scene)), free.limit,
+                   bytes_text(checkpoint_bytes(size.particles, session.case_file)), free.limit,
                    bytes_text(free.bytes));
 }
 
@@ -38,7 +38,7 @@ double probe(Model& model, const Clock& clock)
 int predict_shaking(Session& session, Model& model, const Clock& clock)
 {
   report_memory(session, model);
-  const double duration = session.scene.seismic.duration, steps = duration / clock.dt;
+  const double duration = session.case_file.seismic.duration, steps = duration / clock.dt;
   session.log.info("dt {:.3e} s: {:.0f} steps for {} s, about {} on {} threads", clock.dt, steps, duration,
                    duration_text(probe(model, clock) * steps), parallel::threads());
   return exit_code::done;
@@ -47,7 +47,7 @@ int predict_shaking(Session& session, Model& model, const Clock& clock)
 int predict_relaxation(Session& session, Model& model, const Clock& clock)
 {
   report_memory(session, model);
-  const StaticSettings& s = session.scene.statics;
+  const StaticSettings& s = session.case_file.static_stage;
   const double per_step = probe(model, clock), ramp = s.ramp / clock.dt;
   const double usual = std::min(usual_ramps * ramp, s.until.at_most / clock.dt),
                most = s.until.at_most / clock.dt;

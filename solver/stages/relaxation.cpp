@@ -44,7 +44,8 @@ Relaxation::Relaxation(Session& session, Model& model)
 {
   const Particles& p = model.main->particles;
   for (int k = 0; k < p.size(); ++k)
-    weight_ += p.mass[k] * session.scene.statics.gravity * (p.y[k] - session.scene.domain.bottom);
+    weight_ +=
+        p.mass[k] * session.case_file.static_stage.gravity * (p.y[k] - session.case_file.domain.bottom);
   for (const Material& material : model.main->materials) plasticity_ |= !material.state.empty();
   set_phase(Phase::elastic);
 }
@@ -85,13 +86,13 @@ void Relaxation::save(const std::string& name, const Clock& clock)
 
 void Relaxation::step(Clock& clock, bool measure)
 {
-  const StaticSettings& s = session_.scene.statics;
+  const StaticSettings& s = session_.case_file.static_stage;
   const double now = -s.gravity * ramp(clock.time() / s.ramp);
   model_.for_each_domain(
       [&](Domain& domain, const std::string&)
       {
         domain.gravity_y = now;
-        domain.balance_wanted = measure;
+        domain.force_balance_wanted = measure;
       });
   advance(model_, clock.time(), clock.dt);
   ++clock.step;
@@ -102,17 +103,17 @@ void Relaxation::check(const Clock& clock)
   check_particles(*model_.main, model_.reference_volume);
   model_.for_each_domain([](Domain& domain, const std::string&) { note_gravity(domain); });
   // While gravity begins to grow all energies are tiny, and the trapezoid of its work is coarse beside them.
-  if (clock.time() >= 0.5 * session_.scene.statics.ramp) energy_.check(clock.time());
+  if (clock.time() >= 0.5 * session_.case_file.static_stage.ramp) energy_.check(clock.time());
 }
 
 bool Relaxation::converged(const Clock& clock)
 {
-  const Convergence& until = session_.scene.statics.until;
+  const Convergence& until = session_.case_file.static_stage.until;
   unbalanced_ = kinetic_ = 0;
   model_.for_each_domain([&](Domain& domain, const std::string&)
-                         { unbalanced_ = std::max(unbalanced_, domain.balance.ratio()); });
+                         { unbalanced_ = std::max(unbalanced_, domain.force_balance.ratio()); });
   kinetic_ = kinetic_energy(*model_.main) / weight_;
-  if (clock.time() < session_.scene.statics.ramp) return false;
+  if (clock.time() < session_.case_file.static_stage.ramp) return false;
   const double easier = phase_ == Phase::elastic && plasticity_ ? handover : 1;
   const bool now = unbalanced_ < easier * until.unbalanced && kinetic_ < easier * until.kinetic;
   held_ = now ? held_ + 1 : 0;
@@ -126,7 +127,7 @@ bool Relaxation::converged(const Clock& clock)
 
 std::string Relaxation::failure() const
 {
-  const Convergence& until = session_.scene.statics.until;
+  const Convergence& until = session_.case_file.static_stage.until;
   std::string text;
   if (unbalanced_ >= until.unbalanced)
     text += fmt::format(" unbalanced force {:.2e} is not below {:.2e};", unbalanced_, until.unbalanced);
@@ -151,14 +152,14 @@ void Relaxation::report(const Clock& clock)
 
 int Relaxation::run(Clock& clock)
 {
-  const Convergence& until = session_.scene.statics.until;
+  const Convergence& until = session_.case_file.static_stage.until;
   Progress progress(session_.log, {"static", model_.main->particles.size(), parallel::threads(), clock.step,
                                    clock.time() / until.at_most});
   const auto moment = [&] {
     return Moment{clock.time(), NAN, clock.step, kinetic_energy(*model_.main), greatest_speed(*model_.main)};
   };
   session_.log.info("static stage: {} particles, dt = {:.3e} s, gravity in {} s",
-                    model_.main->particles.size(), clock.dt, session_.scene.statics.ramp);
+                    model_.main->particles.size(), clock.dt, session_.case_file.static_stage.ramp);
   session_.loop_begins(clock.step, model_);
   bool done = session_.at_end();
   while (!done && clock.time() < until.at_most)
@@ -169,13 +170,13 @@ int Relaxation::run(Clock& clock)
     if (clock.step % 100 == 0)
     {
       check(clock);
-      check_step(session_, model_, session_.scene.statics.safety, clock);
+      check_step(session_, model_, session_.case_file.static_stage.courant_number, clock);
     }
     if (progress.due()) progress.update(moment());
     if (!done && (session_.must_stop() || session_.checkpoint_due()))
     {
       save(checkpoint_name(clock.step), clock);
-      session_.folder->prune(session_.scene.output.checkpoint.keep);
+      session_.folder->prune(session_.case_file.output.checkpoint.keep);
       if (session_.must_stop())
       {
         session_.finish("static", exit_code::interrupted, model_, clock, nlohmann::json::object());
@@ -197,7 +198,7 @@ int Relaxation::run(Clock& clock)
   {
     session_.log.error(
         "static stage did not converge by t = {:.1f} s:{} the slope does not stand, or static.until "
-        "asks for more than the scene gives (static.until.at_most allows more time)",
+        "asks for more than the case_file gives (static.until.at_most allows more time)",
         clock.time(), failure());
     session_.finish("static", exit_code::not_converged, model_, clock, measures);
     return exit_code::not_converged;

@@ -10,7 +10,7 @@ class Relaxation
 {
 public:
   Relaxation(Session& session, Model& model);
-  /// Opens the energy ledgers: at the first step, not after a restart.
+  /// Opens the energy balances: at the first step, not after a restart.
   void start() { energy_.open(); }
   void load(const h5::File& file);
   /// Steps until the case's criteria hold; returns the exit code. Writes final.h5 on success.

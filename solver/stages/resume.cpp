@@ -1,7 +1,7 @@
 // Which state a run goes on from, and whether it can be one of its own.
 
-#include "io/checkpoint.hpp"
-#include "io/finish_mark.hpp"
+#include "io/results/checkpoint.hpp"
+#include "io/run_folder/finish_mark.hpp"
 #include "solver/mpm/simd.hpp"
 #include "solver/stages/session.hpp"
 

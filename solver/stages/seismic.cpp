@@ -4,8 +4,8 @@
 //   mpm-seismic cases/slope/case.yaml --from run/static/final.h5 --motion record.AT2 --out run/b
 //   (the same again)                                          goes on after an interruption
 
-#include "io/checkpoint.hpp"
-#include "io/units.hpp"
+#include "io/case/units.hpp"
+#include "io/results/checkpoint.hpp"
 #include "solver/mpm/parallel.hpp"
 #include "solver/stages/boundary_reports.hpp"
 #include "solver/stages/departures.hpp"
@@ -31,10 +31,10 @@ constexpr int check_every = 100;    // steps between looks at particles and wave
 
 /// A step within the case's Courant number that divides the gauges' interval, so that they are sampled
 /// evenly.
-double choose_step(const Case& scene, const Domain& main)
+double choose_step(const Case& case_file, const Domain& main)
 {
-  const double most = scene.safety * scene.grid.spacing / greatest_wave_speed(main);
-  const double every = scene.output.gauges.every;
+  const double most = case_file.courant_number * case_file.grid.spacing / greatest_wave_speed(main);
+  const double every = case_file.output.gauges.every;
   return every / std::ceil(every / most);
 }
 
@@ -50,7 +50,7 @@ std::string load_static_state(const Session& session, Model& model)
     refuse("is no static state of this version; give the final.h5 of mpm-static");
   if (file.attribute_int("last", "clock") != 1)
     refuse("the ground had not settled yet; give the final.h5 of mpm-static");
-  const std::string other = difference(file.read_strings("ground"), ground_settings(session.scene));
+  const std::string other = difference(file.read_strings("ground"), ground_settings(session.case_file));
   if (!other.empty()) refuse(other + "; run mpm-static for this case");
   model.for_each_domain(
       [&](Domain& domain, const std::string& column)
@@ -70,7 +70,7 @@ public:
   Shaking(Session& session, Model& model, const Motion& motion, std::string from)
       : session_(session), model_(model), motion_(motion), from_(std::move(from)),
         observer_(session, model, *motion.wave), energy_(session, model), departures_(session, model),
-        flip_(session.scene.seismic.flip_blend, session.scene.seismic.flip_ends)
+        flip_(session.case_file.seismic.flip_blend, session.case_file.seismic.flip_ends)
   {
   }
 
@@ -78,7 +78,7 @@ public:
   {
     observer_.place_gauges();
     warn_of_unlike_columns(session_, model_);
-    add_seismic_boundaries(model_, session_.scene, motion_.wave, false);
+    add_seismic_boundaries(model_, session_.case_file, motion_.wave, false);
     energy_.open();
     observer_.look(clock, true);
   }
@@ -86,8 +86,8 @@ public:
   void resume(const h5::File& file, Clock& clock)
   {
     const double first_step = clock.dt;
-    add_seismic_boundaries(model_, session_.scene, motion_.wave, true);
-    load_model(file, model_, clock, session_.scene.seismic.duration);
+    add_seismic_boundaries(model_, session_.case_file, motion_.wave, true);
+    load_model(file, model_, clock, session_.case_file.seismic.duration);
     observer_.load(file, clock, first_step);
     self_driven_.load(file.open_group("motion"), clock.time());
     flip_.load(file.open_group("motion"), clock.time());
@@ -111,7 +111,7 @@ public:
 private:
   int go(Clock& clock)
   {
-    const double duration = session_.scene.seismic.duration;
+    const double duration = session_.case_file.seismic.duration;
     Progress progress(session_.log, {"seismic", model_.main->particles.size(), parallel::threads(),
                                      clock.step, clock.time() / duration});
     const auto moment = [&]
@@ -122,7 +122,7 @@ private:
     report_wave_fidelity(session_, clock.dt, motion_.wave.get());
     if (model_.base)
     {
-      const double time = spring_time(session_.scene);
+      const double time = spring_time(session_.case_file);
       session_.log.info("base spring: {}",
                         time > 0 ? fmt::format("{:.2f} s", time) : "none; the base may drift");
     }
@@ -144,7 +144,7 @@ private:
         limit_openings(*model_.main);
         check_particles(*model_.main, model_.reference_volume);
         energy_.check(clock.time());
-        check_step(session_, model_, session_.scene.safety, clock);
+        check_step(session_, model_, session_.case_file.courant_number, clock);
         let_rest(clock.time());
       }
       if (progress.due()) progress.update(moment());
@@ -179,9 +179,9 @@ private:
   {
     if (clock.step % Departures::every != 0 || !departures_.take_out(clock.time())) return false;
     const bool nothing_left = model_.main->particles.size() == 0;
-    if (session_.scene.seismic.leaving == GroundLeaving::remove && !nothing_left) return false;
+    if (session_.case_file.seismic.leaving == GroundLeaving::remove && !nothing_left) return false;
     session_.log.warn("the run ends at t = {:.2f} s of {} s: {}", clock.time(),
-                      session_.scene.seismic.duration,
+                      session_.case_file.seismic.duration,
                       nothing_left ? "all ground has left the model"
                                    : "ground has left the model, and seismic.leaving is stop");
     return true;
@@ -190,7 +190,7 @@ private:
   /// Once the motion is over and the free field stands still, ground at rest may be skipped.
   void let_rest(double time)
   {
-    const double below = session_.scene.seismic.rest_below;
+    const double below = session_.case_file.seismic.rest_below;
     const auto [vx, vy] = motion_.wave->velocity(time);
     bool still = time >= motion_.wave->end() && vx == 0 && vy == 0;
     for (const FreeFieldColumn* column : {model_.left.get(), model_.right.get()})
@@ -198,7 +198,7 @@ private:
     allow_rest(*model_.main, still ? below : 0);
   }
 
-  bool ends_self_driven() const { return session_.scene.seismic.motion.end == MotionEnd::self_driven; }
+  bool ends_self_driven() const { return session_.case_file.seismic.motion.end == MotionEnd::self_driven; }
 
   /// Lets the motion fade from the sample on that shows a self-driven slide.
   void end_motion()
@@ -251,13 +251,13 @@ private:
                                 flip_.save(motion);
                               });
     observer_.write(applied_until(clock));
-    session_.folder->prune(session_.scene.output.checkpoint.keep);
+    session_.folder->prune(session_.case_file.output.checkpoint.keep);
   }
 
   /// Until when the motion was applied, s: the last step may go beyond the run's end.
   double applied_until(const Clock& clock) const
   {
-    return std::min(clock.time(), session_.scene.seismic.duration);
+    return std::min(clock.time(), session_.case_file.seismic.duration);
   }
 
   nlohmann::json summary(const Clock& clock) const
@@ -288,7 +288,7 @@ private:
 /// A motion asked for on the command line is not to be left out; load_motion() warns of one of the case.
 void refuse_motion_of_fixed_base(Session& session)
 {
-  if (session.scene.seismic.base != BaseKind::fixed) return;
+  if (session.case_file.seismic.base != BaseKind::fixed) return;
   const Options& options = session.options;
   if (!options.motion.empty() || !options.vertical.empty() || options.scale != 1)
     throw Error(exit_code::usage,
@@ -298,12 +298,12 @@ void refuse_motion_of_fixed_base(Session& session)
 
 int run_seismic(Session& session)
 {
-  const Case& scene = session.scene;
+  const Case& case_file = session.case_file;
   const Options& options = session.options;
-  if (scene.seismic.duration <= 0)
-    throw Error(exit_code::bad_input, scene.path.string() + ": has no seismic section; nothing to shake");
+  if (case_file.seismic.duration <= 0)
+    throw Error(exit_code::bad_input, case_file.path.string() + ": has no seismic section; nothing to shake");
   refuse_motion_of_fixed_base(session);
-  if (options.from.empty() && scene.statics.gravity != 0 && !options.check)
+  if (options.from.empty() && case_file.static_stage.gravity != 0 && !options.check)
     throw Error(exit_code::usage, "mpm-seismic: --from is missing: give the final.h5 of mpm-static");
 
   if (options.fresh && !options.from.empty() &&
@@ -312,7 +312,7 @@ int run_seismic(Session& session)
     throw Error(exit_code::usage,
                 options.out.string() + ": --fresh would remove the static state; give another --out");
 
-  // 1. The motion and the scene.
+  // 1. The motion and the case.
   const Motion motion = load_motion(session);
   Model model;
   Clock clock;
@@ -321,30 +321,30 @@ int run_seismic(Session& session)
   const auto begin = [&] // unless nothing has been done to it yet
   {
     if (std::exchange(as_new, true)) return;
-    model = make_model(scene);
-    if (!std::exchange(told, true)) report_filling(session.log, scene, model.filling);
+    model = make_model(case_file);
+    if (!std::exchange(told, true)) report_filling(session.log, case_file, model.filling);
     clock = {};
-    clock.dt = choose_step(scene, *model.main);
+    clock.dt = choose_step(case_file, *model.main);
     if (!options.from.empty()) from = load_static_state(session, model);
   };
   begin();
-  if (scene.seismic.duration / clock.dt > most_steps)
+  if (case_file.seismic.duration / clock.dt > most_steps)
     throw Error(
         exit_code::bad_input,
         fmt::format(
             "seismic.duration: {:g} s are more than {:g} steps of {:.3g} s, which no run gets through; "
             "shorten it, or mend the time step of the record",
-            scene.seismic.duration, most_steps, clock.dt));
+            case_file.seismic.duration, most_steps, clock.dt));
   if (options.check)
   {
     report_wave_fidelity(session, clock.dt, motion.wave.get());
-    model = make_model(scene);
+    model = make_model(case_file);
     return predict_shaking(session, model, clock);
   }
   if (options.from.empty()) session.log.info("no gravity: starts from a stress-free state");
 
   // 2. The folder: ours, finished, or to be gone on with.
-  RunFolder::Identity identity = seismic_settings(scene);
+  RunFolder::Identity identity = seismic_settings(case_file);
   identity.insert(identity.end(), motion.identity.begin(), motion.identity.end());
   if (!from.empty()) identity.push_back({"from", from});
   session.open_folder(identity);

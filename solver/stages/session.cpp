@@ -1,8 +1,8 @@
 #include "solver/stages/session.hpp"
 
-#include "io/checkpoint.hpp"
-#include "io/finish_mark.hpp"
-#include "io/signals.hpp"
+#include "io/common/signals.hpp"
+#include "io/results/checkpoint.hpp"
+#include "io/run_folder/finish_mark.hpp"
 #include "solver/mpm/parallel.hpp"
 #include "solver/mpm/waiting.hpp"
 
@@ -31,8 +31,8 @@ bool Clock::passed(double every) const
 Session::Session(Options given)
     : options(std::move(given)), log(options.verbosity, options.check ? Screen::answer : Screen::messages)
 {
-  scene = load_case(options.case_file, options.overrides, options.profile);
-  for (const std::string& warning : scene.warnings) log.warn("{}", warning);
+  case_file = load_case(options.case_file, options.overrides, options.profile);
+  for (const std::string& warning : case_file.warnings) log.warn("{}", warning);
 }
 
 void Session::open_folder(const RunFolder::Identity& identity)
@@ -57,7 +57,7 @@ bool Session::must_stop() const
 bool Session::checkpoint_due() const
 {
   return std::chrono::duration<double>(Wall::now() - last_checkpoint_).count() >=
-         scene.output.checkpoint.every;
+         case_file.output.checkpoint.every;
 }
 
 Provenance Session::provenance() const
@@ -73,13 +73,13 @@ void Session::write_checkpoint(const std::string& name, std::string_view stage, 
                         [&](h5::File& file)
                         {
                           write_provenance(file, provenance(), checkpoint_schema);
-                          file.write_text("case", scene.text);
-                          file.attribute("sha256", sha256(scene.text), "case");
-                          file.attribute("path", scene.path.string(), "case");
-                          file.attribute("profile", scene.profile, "case");
-                          file.write_strings("overrides", scene.overrides);
+                          file.write_text("case", case_file.text);
+                          file.attribute("sha256", sha256(case_file.text), "case");
+                          file.attribute("path", case_file.path.string(), "case");
+                          file.attribute("profile", case_file.profile, "case");
+                          file.write_strings("overrides", case_file.overrides);
                           file.write_text("case_resolved", resolved_case());
-                          file.write_strings("ground", ground_settings(scene));
+                          file.write_strings("ground", ground_settings(case_file));
                           file.write_strings("identity", folder->identity_lines());
                           file.write_strings("warnings", log.warnings());
                           h5::Group time = file.create_group("clock");
@@ -118,7 +118,7 @@ void Session::finish(std::string_view stage, int exit, const Model& model, const
   const double steps = static_cast<double>(clock.step - first_step_);
   const double particles = model.main->particles.size();
   nlohmann::json summary{
-      {"name", scene.name},
+      {"name", case_file.name},
       {"stage", stage},
       {"exit", exit},
       {"time", clock.time()},
@@ -129,9 +129,9 @@ void Session::finish(std::string_view stage, int exit, const Model& model, const
       {"wall_seconds", wall_seconds()},
       {"ns_per_particle_step", 1e9 * loop * parallel::threads() / std::max(1.0, particles * steps)},
       {"warnings", log.warnings()},
-      {"case_sha256", sha256(scene.text)},
-      {"profile", scene.profile},
-      {"overrides", scene.overrides},
+      {"case_sha256", sha256(case_file.text)},
+      {"profile", case_file.profile},
+      {"overrides", case_file.overrides},
       {"version", SEISMPM_VERSION},
       {"git", SEISMPM_GIT},
       {"build", SEISMPM_BUILD},
@@ -160,10 +160,10 @@ void Session::finish(std::string_view stage, int exit, const Model& model, const
   log.info("of it {} ns", phases);
 }
 
-void check_step(Session& session, const Model& model, double safety, Clock& clock)
+void check_step(Session& session, const Model& model, double courant_number, Clock& clock)
 {
-  const double h = session.scene.grid.spacing, speed = greatest_wave_speed(*model.main);
-  const double limit = safety < courant_limit ? courant_limit : stability_limit;
+  const double h = session.case_file.grid.spacing, speed = greatest_wave_speed(*model.main);
+  const double limit = courant_number < courant_limit ? courant_limit : stability_limit;
   if (clock.dt * speed <= limit * h) return;
   clock.change_step(clock.dt / 2);
   session.log.warn(

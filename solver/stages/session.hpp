@@ -1,9 +1,9 @@
 #pragma once
 
-#include "io/case.hpp"
-#include "io/files.hpp"
-#include "io/log.hpp"
-#include "io/run_folder.hpp"
+#include "io/case/case.hpp"
+#include "io/common/files.hpp"
+#include "io/run_folder/log.hpp"
+#include "io/run_folder/run_folder.hpp"
 #include "solver/stages/command_line.hpp"
 #include "solver/stages/model.hpp"
 
@@ -13,7 +13,7 @@
 namespace mpm
 {
 /// Of all states that a run goes on from.
-inline constexpr std::string_view checkpoint_schema = "seismpm-checkpoint/2";
+inline constexpr std::string_view checkpoint_schema = "seismpm-checkpoint/3";
 
 /// Step counter and time: t = t0 + (k - k0) dt, so that no rounding piles up.
 struct Clock
@@ -71,7 +71,7 @@ public:
 
   Options options;
   Log log;
-  Case scene;
+  Case case_file;
   std::unique_ptr<RunFolder> folder;
   nlohmann::json facts = nlohmann::json::object(); ///< what was found out before the run, for the summary
 
@@ -87,7 +87,7 @@ private:
 };
 
 /// Halves the step when the ground has become so loose that waves outrun it.
-void check_step(Session& session, const Model& model, double safety, Clock& clock);
+void check_step(Session& session, const Model& model, double courant_number, Clock& clock);
 
 /// Parses the command line, runs `stage` and maps every way to end to its exit code (INTERFACE: exit codes).
 int run_program(int argc, char** argv, const std::string& name, int (*stage)(Session&));
@@ -98,10 +98,10 @@ int run_program(int argc, char** argv, const std::string& name, int (*stage)(Ses
 void load_model(const h5::File& file, Model& model, Clock& clock, double at_most);
 
 /// What of a case makes a run of a stage that run and no other, defaults written out.
-RunFolder::Identity static_settings(const Case& scene);
-RunFolder::Identity seismic_settings(const Case& scene);
+RunFolder::Identity static_settings(const Case& case_file);
+RunFolder::Identity seismic_settings(const Case& case_file);
 
 /// The settings that shape the ground itself, as sorted lines `key = value`: what static and seismic stage
 /// must share.
-std::vector<std::string> ground_settings(const Case& scene);
+std::vector<std::string> ground_settings(const Case& case_file);
 } // namespace mpm

@@ -1,8 +1,8 @@
 #pragma once
 // Run-out: what of the ground has moved, since when, how far and how fast.
 
-#include "io/case.hpp"
-#include "io/history.hpp"
+#include "io/case/case.hpp"
+#include "io/results/history.hpp"
 #include "solver/stages/model.hpp"
 
 #include <nlohmann/json.hpp>
@@ -49,7 +49,7 @@ public:
   static constexpr double departed = 0.1; ///< m beyond which it has left its place
   static constexpr double early = 0.1;    ///< share of the moved mass that makes the beginning of a slide
 
-  Slide(const Model& model, const Case& scene) : model_(model), scene_(scene) {}
+  Slide(const Model& model, const Case& case_file) : model_(model), scene_(case_file) {}
   void add_series(History& history, History::Clock clock);
   /// Measures the state at `time` (s) and records it in the row that has begun.
   void sample(History& history, double time);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "io/log.hpp"
+#include "io/run_folder/log.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -17,12 +17,12 @@ namespace
 {
 int run_static(Session& session)
 {
-  const Case& scene = session.scene;
-  if (scene.statics.gravity == 0)
-    throw Error(exit_code::bad_input, scene.path.string() +
+  const Case& case_file = session.case_file;
+  if (case_file.static_stage.gravity == 0)
+    throw Error(exit_code::bad_input, case_file.path.string() +
                                           ": static.gravity: is 0, so there is no static state to "
                                           "find; run mpm-seismic without --from");
-  // 1. The undeformed scene between kinematic walls.
+  // 1. The undeformed ground between kinematic walls.
   Model model;
   Clock clock;
   double shaking_step = 0;
@@ -30,15 +30,16 @@ int run_static(Session& session)
   const auto begin = [&] // unless nothing has been done to it yet
   {
     if (std::exchange(as_new, true)) return;
-    model = make_model(scene);
+    model = make_model(case_file);
     clock = {};
-    add_static_boundaries(model, scene);
-    shaking_step = scene.safety * scene.grid.spacing / greatest_wave_speed(*model.main);
-    if (scene.statics.mass_scaling) scale_masses(model);
-    clock.dt = scene.statics.safety * scene.grid.spacing / greatest_wave_speed(*model.main);
+    add_static_boundaries(model, case_file);
+    shaking_step = case_file.courant_number * case_file.grid.spacing / greatest_wave_speed(*model.main);
+    if (case_file.static_stage.mass_scaling) scale_masses(model);
+    clock.dt =
+        case_file.static_stage.courant_number * case_file.grid.spacing / greatest_wave_speed(*model.main);
   };
   begin();
-  report_filling(session.log, scene, model.filling);
+  report_filling(session.log, case_file, model.filling);
   if (session.options.check)
   {
     report_wave_fidelity(session, shaking_step, nullptr);
@@ -46,7 +47,7 @@ int run_static(Session& session)
   }
 
   // 2. The folder: ours, finished, or to be gone on with.
-  session.open_folder(static_settings(scene));
+  session.open_folder(static_settings(case_file));
   if (session.finished_already()) return exit_code::done;
   std::optional<Relaxation> relaxation;
   const auto load = [&](const h5::File& file)
@@ -54,7 +55,7 @@ int run_static(Session& session)
     begin();
     as_new = false;
     relaxation.emplace(session, model);
-    load_model(file, model, clock, scene.statics.until.at_most);
+    load_model(file, model, clock, case_file.static_stage.until.at_most);
     relaxation->load(file);
   };
   if (!session.resume(load))

@@ -3,7 +3,7 @@
 //   build/seismpm-bench --out bench.json                 10^4 to 4 10^6 particles, one and all threads
 //   build/seismpm-bench --particles 4000000 --threads 2
 
-#include "io/case.hpp"
+#include "io/case/case.hpp"
 #include "solver/mpm/parallel.hpp"
 #include "solver/stages/model.hpp"
 
@@ -82,27 +82,27 @@ double bandwidth(std::size_t bytes)
 }
 
 /// The slope at about `particles` particles, 3 x 3 a cell, with geostatic stress, at the switch.
-Model shaken_slope(int particles, Case& scene)
+Model shaken_slope(int particles, Case& case_file)
 {
   const std::string path = SOURCE_DIR "/cases/slope/case.yaml";
   const double area = 4260; // m2 of the section
   double h = std::sqrt(9 * area / particles);
   h = 140 / std::ceil(140 / h); // a whole number of cells
-  scene = load_case(path, {fmt::format("grid.spacing={:.17g} m", h), "grid.particles_per_cell=3"});
-  Model model = make_model(scene);
+  case_file = load_case(path, {fmt::format("grid.spacing={:.17g} m", h), "grid.particles_per_cell=3"});
+  Model model = make_model(case_file);
   model.for_each_domain(
       [&](Domain& domain, const std::string&)
       {
         Particles& p = domain.particles;
         for (int k = 0; k < p.size(); ++k)
         {
-          const double depth = scene.ground_height(p.x[k]) - p.y[k];
+          const double depth = case_file.ground_height(p.x[k]) - p.y[k];
           p.stress_yy[k] = -18e3 * depth;
           p.stress_xx[k] = p.stress_zz[k] = -9e3 * depth;
         }
-        domain.gravity_y = -scene.statics.gravity;
+        domain.gravity_y = -case_file.static_stage.gravity;
       });
-  add_static_boundaries(model, scene);
+  add_static_boundaries(model, case_file);
   auto wave = std::make_shared<IncomingWave>();
   GroundMotion motion; // 0.3 m/s at 2 Hz
   motion.dt = 0.01;
@@ -112,8 +112,8 @@ Model shaken_slope(int particles, Case& scene)
     motion.acceleration.push_back(0.3 * 4 * M_PI * std::cos(4 * M_PI * k * motion.dt));
   }
   wave->horizontal = motion;
-  add_seismic_boundaries(model, scene, wave, false);
-  model.for_each_domain([](Domain& domain, const std::string&) { open_ledger(domain); });
+  add_seismic_boundaries(model, case_file, wave, false);
+  model.for_each_domain([](Domain& domain, const std::string&) { open_energy_balance(domain); });
   return model;
 }
 
@@ -131,7 +131,7 @@ struct Run
   int particles, threads;
   double step;   ///< ns per particle-step and core, median over batches of steps
   double floors; ///< median of the batches' ratios to the arithmetic floor of that moment and all threads
-  double bytes;  ///< of memory per particle, all that the scene takes
+  double bytes;  ///< of memory per particle, all that the case takes
   std::array<double, phase_names.size()> phases;
 };
 
@@ -140,9 +140,9 @@ Run measure(int particles, int threads)
   parallel::use_threads(threads);
   malloc_trim(0);
   const double before_scene = resident();
-  Case scene;
-  Model model = shaken_slope(particles, scene);
-  const double dt = scene.safety * scene.grid.spacing / greatest_wave_speed(*model.main);
+  Case case_file;
+  Model model = shaken_slope(particles, case_file);
+  const double dt = case_file.courant_number * case_file.grid.spacing / greatest_wave_speed(*model.main);
   const int count = model.main->particles.size();
   const int batch = std::max(3, static_cast<int>(2e7 / count) / 5);
   long step = 0;
@@ -174,9 +174,9 @@ Run measure(int particles, int threads)
 void take(int particles, int steps)
 {
   parallel::use_threads(1);
-  Case scene;
-  Model model = shaken_slope(particles, scene);
-  const double dt = scene.safety * scene.grid.spacing / greatest_wave_speed(*model.main);
+  Case case_file;
+  Model model = shaken_slope(particles, case_file);
+  const double dt = case_file.courant_number * case_file.grid.spacing / greatest_wave_speed(*model.main);
   for (int step = 0; step < steps; ++step) advance(model, step * dt, dt);
   fmt::print("{} particles\n{} steps\n", model.main->particles.size(), steps);
 }
@@ -188,7 +188,7 @@ int main(int argc, char** argv)
   std::string out;
   std::vector<int> sizes{10000, 100000, 1000000, 4000000}, threads{1, parallel::processors()};
   app.add_option("--out", out, "file for the figures (JSON)");
-  app.add_option("--particles", sizes, "sizes of the scene");
+  app.add_option("--particles", sizes, "sizes of the case_file");
   app.add_option("--threads", threads, "numbers of threads");
   int steps = 0;
   app.add_option("--steps", steps, "take this many steps of the first size and measure nothing");
@@ -207,7 +207,7 @@ int main(int argc, char** argv)
   const double arithmetic = arithmetic_floor(fma);
   const double memory = 351 / near; // 328 + 23 bytes a particle-step with 9 particles a cell
   fmt::print("floors: arithmetic {:.1f}, memory {:.1f} ns per particle-step\n\n", arithmetic, memory);
-  measure(1000, threads.front()); // what the program takes for itself is no scene's
+  measure(1000, threads.front()); // what the program takes for itself is no case's
   fmt::print("{:>10} {:>8} {:>8}", "particles", "threads", "step");
   for (const auto name : phase_names) fmt::print(" {:>10}", name);
   fmt::print("  floor x  bytes\n");

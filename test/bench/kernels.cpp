@@ -3,7 +3,7 @@
 //   build/seismpm-kernels --benchmark_filter=scatter
 
 #include "solver/mpm/chunk.hpp"
-#include "test/scenes.hpp"
+#include "test/domains.hpp"
 
 #include <benchmark/benchmark.h>
 
@@ -18,8 +18,8 @@ Domain ground(int particles)
 {
   const double width = std::round(std::sqrt(particles / 9.0));
   Domain domain =
-      scenes::make_domain({{scenes::von_mises(1e4, 5e3, 0.1), {3, 3, width, width}, 1.0 / 3}}, 1, 0.2);
-  scenes::random_velocities(domain, 0.1, 2);
+      domains::make_domain({{domains::von_mises(1e4, 5e3, 0.1), {3, 3, width, width}, 1.0 / 3}}, 1, 0.2);
+  domains::random_velocities(domain, 0.1, 2);
   particles_to_grid(domain, time_step);
   solve_grid(domain, time_step);
   return domain;
@@ -38,11 +38,11 @@ void stencils(benchmark::State& state)
   const Particles& p = domain.particles;
   ChunkStencils chunk;
   for (auto _ : state)
-    for (const Home& home : domain.homes)
-      for_each_chunk(home,
+    for (const OccupiedBlock& occupied : domain.occupied_blocks)
+      for_each_chunk(occupied,
                      [&](int, int begin, int count)
                      {
-                       chunk.find(TileStencils(domain.grid, home.block), &p.x[begin], &p.y[begin], count);
+                       chunk.find(TileStencils(domain.grid, occupied.block), &p.x[begin], &p.y[begin], count);
                        benchmark::DoNotOptimize(chunk);
                      });
   per_particle(state, p.size());
@@ -75,8 +75,8 @@ void deformation_and_stress(benchmark::State& state)
   Domain domain = ground(static_cast<int>(state.range(0)));
   VelocityGradients still{};
   for (auto _ : state)
-    for (const Home& home : domain.homes)
-      for_each_chunk(home, [&](int material, int begin, int count)
+    for (const OccupiedBlock& occupied : domain.occupied_blocks)
+      for_each_chunk(occupied, [&](int material, int begin, int count)
                      { update_particles(domain, material, begin, count, still, time_step); });
   per_particle(state, domain.particles.size());
 }

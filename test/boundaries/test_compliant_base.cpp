@@ -1,5 +1,5 @@
 #include "boundaries/compliant_base.hpp"
-#include "test/scenes.hpp"
+#include "test/domains.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -9,7 +9,7 @@ using namespace mpm;
 
 namespace
 {
-const Elastic rock = scenes::elastic(250e6, 0.25, 2200);
+const Elastic rock = domains::elastic(250e6, 0.25, 2200);
 
 /// A column of rock, periodic and one cell wide, on a compliant base.
 struct Column
@@ -18,7 +18,7 @@ struct Column
   CompliantBase* base;
 
   Column(double height, double spring_time)
-      : domain(scenes::make_domain({{rock, {0, 0, 1, height}}})), base(add_base(spring_time))
+      : domain(domains::make_domain({{rock, {0, 0, 1, height}}})), base(add_base(spring_time))
   {
   }
   double step() const { return 0.5 / rock.pressure_speed(); }
@@ -48,7 +48,7 @@ Column loaded(char direction, double spring_time, double duration)
 {
   Column column(height, spring_time);
   (direction == 'x' ? column.domain.gravity_x : column.domain.gravity_y) = load / (rock.density * height);
-  scenes::run(column.domain, static_cast<int>(duration / column.step()), column.step());
+  domains::run(column.domain, static_cast<int>(duration / column.step()), column.step());
   return column;
 }
 } // namespace
@@ -80,7 +80,7 @@ TEST_CASE("under a lasting load F the spring lets the base go by about F T / (rh
   double furthest = 0, moved = 0;
   for (int n = 0; n * column.step() < 150 * time; ++n)
   {
-    scenes::run(column.domain, 1, column.step());
+    domains::run(column.domain, 1, column.step());
     const Particles& p = column.domain.particles;
     const int k = column.lowest();
     moved = direction == 'x' ? p.x[k] - p.reference_x[k] : p.y[k] - p.reference_y[k];
@@ -110,7 +110,7 @@ TEST_CASE("a wave meets the spring as dashpot, lag and reaction in series", "[bo
   double error = 0, reflected = 0;
   for (int n = 1; n * dt < 1.2; ++n)
   {
-    scenes::run(column.domain, 1, dt);
+    domains::run(column.domain, 1, dt);
     const double echo = -(s + r) / (2 * time), v = down(n * dt - start / c) + echo;
     error = std::max(error, std::fabs(p.velocity_x[column.lowest()] - v));
     reflected = std::max(reflected, std::fabs(echo));
@@ -127,7 +127,7 @@ TEST_CASE("a wave meets the spring as dashpot, lag and reaction in series", "[bo
 
 TEST_CASE("the base's drift is its displacement beyond the free field's, between the columns", "[boundaries]")
 {
-  Domain domain = scenes::make_domain({{rock, {0, 0, 20, 2}}});
+  Domain domain = domains::make_domain({{rock, {0, 0, 20, 2}}});
   const CompliantBase base(find_faces(domain, Edge::bottom, 0, 0.5), std::make_shared<IncomingWave>(),
                            BaseSpring(0));
   const double angle = 1e-3, sunk = -0.02;

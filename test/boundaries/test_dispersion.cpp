@@ -1,11 +1,11 @@
 #include "boundaries/mirrored_wall.hpp"
 #include "solver/mpm/dispersion.hpp"
-#include "test/scenes.hpp"
+#include "test/domains.hpp"
 
 #include <catch2/catch.hpp>
 
 using namespace mpm;
-using namespace scenes;
+using namespace domains;
 
 namespace
 {

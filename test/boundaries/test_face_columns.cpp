@@ -1,5 +1,5 @@
 #include "boundaries/compliant_base.hpp"
-#include "test/scenes.hpp"
+#include "test/domains.hpp"
 #include "test/stages/ground.hpp"
 
 #include <catch2/catch.hpp>
@@ -8,7 +8,7 @@
 #include <numeric>
 
 using namespace mpm;
-using namespace scenes;
+using namespace domains;
 
 namespace
 {
@@ -99,7 +99,7 @@ TEST_CASE("A face's dashpots never give energy, however strong, wherever the fac
   CHECK(energy.last <= energy.early);
 }
 
-TEST_CASE("The work that the ledger books at a base is that of the force that acted", "[boundaries]")
+TEST_CASE("The work that the energy balance books at a base is that of the force that acted", "[boundaries]")
 {
   const Threads one(1);
   // Free of stress, the base is all that acts in the first step.
@@ -113,9 +113,9 @@ TEST_CASE("The work that the ledger books at a base is that of the force that ac
   put_on_base(domain, strength, std::make_shared<IncomingWave>(wave));
   domain.time = 0.005;
   step(domain, 0.5 / rock.pressure_speed());
-  const Energies& flow = domain.ledger.flow;
+  const Energies& flow = domain.energy.flow;
   CHECK(flow[Energy::incoming] > 0);
-  CHECK(domain.ledger.work == Approx(flow[Energy::incoming] - flow[Energy::radiated_base]).epsilon(1e-11));
+  CHECK(domain.energy.work == Approx(flow[Energy::incoming] - flow[Energy::radiated_base]).epsilon(1e-11));
 }
 
 TEST_CASE("A face's dashpots take the momentum rho c v an area and time from a body that moves with v",

@@ -1,5 +1,5 @@
 #include "boundaries/compliant_base.hpp"
-#include "boundaries/ground_motion.hpp"
+#include "boundaries/ground_motion/ground_motion.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -220,8 +220,10 @@ TEST_CASE("the report measures a sine in closed form", "[boundaries]")
   // Trapezoidal v is the closed form (1 - cos w t) / w times 1 - (w dt)^2 / 12.
   CHECK(motion.report.corrected.pgv == Approx(2 * peak / w).epsilon(4e-4));
   CHECK(motion.report.corrected.final_displacement == Approx(peak / w * 20).epsilon(4e-4));
-  CHECK(motion.report.corrected.arias == Approx(pi / (2 * standard_gravity) * peak * peak / 2 * 20).epsilon(1e-12));
-  CHECK(motion.report.corrected.d5_95 == Approx(18).margin(0.03)); // whole samples, crossed during a half period
+  CHECK(motion.report.corrected.arias ==
+        Approx(pi / (2 * standard_gravity) * peak * peak / 2 * 20).epsilon(1e-12));
+  CHECK(motion.report.corrected.d5_95 ==
+        Approx(18).margin(0.03)); // whole samples, crossed during a half period
 }
 
 TEST_CASE("scaling a record scales its motion", "[boundaries]")

@@ -1,10 +1,10 @@
 #include "boundaries/images.hpp"
-#include "test/scenes.hpp"
+#include "test/domains.hpp"
 
 #include <catch2/catch.hpp>
 
 using namespace mpm;
-using namespace scenes;
+using namespace domains;
 
 namespace
 {
@@ -162,7 +162,7 @@ TEST_CASE("Images that sleeping ground hides leave the forces on waking ground a
     domain->boundaries.push_back(std::make_unique<FrozenImages>(make_images(*domain, base)));
   sort_particles(awake);
   sort_particles(half);
-  for (Home& home : half.homes) home.asleep = home.block.x < 6;
+  for (OccupiedBlock& occupied : half.occupied_blocks) occupied.asleep = occupied.block.x < 6;
   bind_rest(half);
   particles_to_grid(awake, 1e-3);
   particles_to_grid(half, 1e-3);

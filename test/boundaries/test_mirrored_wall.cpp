@@ -1,10 +1,10 @@
 #include "boundaries/mirrored_wall.hpp"
-#include "test/scenes.hpp"
+#include "test/domains.hpp"
 
 #include <catch2/catch.hpp>
 
 using namespace mpm;
-using namespace scenes;
+using namespace domains;
 
 TEST_CASE("Nothing moves through a wall, nor along one that sticks", "[boundaries]")
 {

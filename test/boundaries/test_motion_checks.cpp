@@ -1,4 +1,4 @@
-#include "boundaries/motion_checks.hpp"
+#include "boundaries/ground_motion/checks.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-#include "boundaries/incoming_wave.hpp"
+#include "boundaries/ground_motion/incoming_wave.hpp"
 
 #include <catch2/catch.hpp>
 

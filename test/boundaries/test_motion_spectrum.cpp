@@ -1,4 +1,4 @@
-#include "boundaries/motion_spectrum.hpp"
+#include "boundaries/ground_motion/spectrum.hpp"
 
 #include <catch2/catch.hpp>
 

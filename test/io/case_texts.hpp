@@ -1,8 +1,8 @@
 #pragma once
 // Cases as texts: read them, or hear why they are refused.
 
-#include "io/case.hpp"
-#include "io/error.hpp"
+#include "io/case/case.hpp"
+#include "io/common/error.hpp"
 #include "test/temporary_folder.hpp"
 
 #include <catch2/catch.hpp>

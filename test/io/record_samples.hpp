@@ -1,7 +1,7 @@
 #pragma once
 // Made files in the formats of archives, all of one motion; their layout is that of real ones.
 
-#include "io/record_reader.hpp"
+#include "io/records/reader.hpp"
 
 #include <cmath>
 #include <cstdio>

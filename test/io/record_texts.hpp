@@ -1,8 +1,8 @@
 #pragma once
 // What the tests of the record readers share.
 
-#include "io/error.hpp"
-#include "io/record_reader.hpp"
+#include "io/common/error.hpp"
+#include "io/records/reader.hpp"
 
 #include <catch2/catch.hpp>
 

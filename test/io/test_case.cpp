@@ -8,28 +8,28 @@ using namespace mpm::test;
 
 TEST_CASE("A small case gets the documented defaults", "[io]")
 {
-  const Case scene = load(small);
-  CHECK(scene.name == "case");
-  CHECK(scene.text == small);
-  CHECK(scene.grid.spacing == 1);
-  CHECK(scene.grid.particles_per_cell == 3);
-  CHECK(scene.domain.right == 40);
-  CHECK(scene.statics.gravity == 9.81);
-  CHECK(scene.statics.until.at_most == 60);
-  CHECK(scene.seismic.duration == 0);
-  CHECK(scene.seismic.sides == SideKind::free_field);
-  CHECK(scene.seismic.motion.horizontal->built_in());
-  CHECK_FALSE(scene.seismic.motion.vertical);
-  CHECK(scene.safety == 0.5);
-  CHECK(scene.output.frames.fields == std::vector<std::string>{"displacement", "velocity", "stress"});
-  CHECK(scene.output.checkpoint.every == 600);
-  CHECK(scene.output.checkpoint.keep == 2);
-  CHECK(scene.warnings.empty());
-  REQUIRE(scene.materials.size() == 1);
-  CHECK(scene.materials[0].model() == "elastic");
-  CHECK(scene.materials[0].elastic().young == 40e6);
-  CHECK(scene.ground_height(20) == 10);
-  CHECK(scene.longest_period() == Approx(4 * 10 / scene.materials[0].elastic().shear_speed()));
+  const Case case_file = load(small);
+  CHECK(case_file.name == "case");
+  CHECK(case_file.text == small);
+  CHECK(case_file.grid.spacing == 1);
+  CHECK(case_file.grid.particles_per_cell == 3);
+  CHECK(case_file.domain.right == 40);
+  CHECK(case_file.static_stage.gravity == 9.81);
+  CHECK(case_file.static_stage.until.at_most == 60);
+  CHECK(case_file.seismic.duration == 0);
+  CHECK(case_file.seismic.sides == SideKind::free_field);
+  CHECK(case_file.seismic.motion.horizontal->built_in());
+  CHECK_FALSE(case_file.seismic.motion.vertical);
+  CHECK(case_file.courant_number == 0.5);
+  CHECK(case_file.output.frames.fields == std::vector<std::string>{"displacement", "velocity", "stress"});
+  CHECK(case_file.output.checkpoint.every == 600);
+  CHECK(case_file.output.checkpoint.keep == 2);
+  CHECK(case_file.warnings.empty());
+  REQUIRE(case_file.materials.size() == 1);
+  CHECK(case_file.materials[0].model() == "elastic");
+  CHECK(case_file.materials[0].elastic().young == 40e6);
+  CHECK(case_file.ground_height(20) == 10);
+  CHECK(case_file.longest_period() == Approx(4 * 10 / case_file.materials[0].elastic().shear_speed()));
 }
 
 TEST_CASE("The base's spring is none, the ground's own or a time", "[io]")
@@ -50,7 +50,7 @@ TEST_CASE("Every section of a case is read", "[io]")
 {
   const TemporaryFolder folder;
   written(folder, "profiles/rock.csv", "x, y\n# rock\n0, 8\n20, 8 # level\n40, 2\n");
-  const Case scene = load_case(written(folder, "case.yaml", R"(schema: seismpm-case/1
+  const Case case_file = load_case(written(folder, "case.yaml", R"(schema: seismpm-case/1
 name: full
 grid: {spacing: 50 cm, particles_per_cell: 2}
 domain: {x: [0 m, 40 m], bottom: -2 m}
@@ -84,27 +84,27 @@ seismic:
     taper: 1 s
     high_pass: 0.1 Hz
     end: 12.5 s
-time_step: {safety: 0.7}
+time_step: {courant_number: 0.7}
 output:
   frames: {every: 1 s, fields: [velocity, plastic_strain]}
   gauges: {every: 0.02 s, points: {crest: [20 m, 12 m], foot: [40 m, 6.2 m]}}
   checkpoint: {every: 2 min, keep: 3}
 )"));
-  CHECK(scene.name == "full");
-  CHECK(scene.grid.particle_spacing() == 0.25);
-  CHECK(scene.domain.bottom == -2);
-  CHECK(scene.surfaces[0].name == "ground");
-  CHECK(scene.surfaces[0].height(30) == Approx(9));
-  CHECK(scene.surfaces[2].height(3) == 25);
-  CHECK(scene.regions[0].right == 10);
-  CHECK(scene.regions[2].below == 1);
-  CHECK(std::get<VonMises>(scene.materials[1].law).softening_strain ==
+  CHECK(case_file.name == "full");
+  CHECK(case_file.grid.particle_spacing() == 0.25);
+  CHECK(case_file.domain.bottom == -2);
+  CHECK(case_file.surfaces[0].name == "ground");
+  CHECK(case_file.surfaces[0].height(30) == Approx(9));
+  CHECK(case_file.surfaces[2].height(3) == 25);
+  CHECK(case_file.regions[0].right == 10);
+  CHECK(case_file.regions[2].below == 1);
+  CHECK(std::get<VonMises>(case_file.materials[1].law).softening_strain ==
         Approx(0.2 / (std::sqrt(3.0) * 3 * 0.5)));
-  CHECK(scene.statics.gravity == 0);
-  CHECK(scene.statics.until.at_most == 20);
-  CHECK(scene.seismic.base == BaseKind::fixed);
-  CHECK(scene.seismic.sides == SideKind::roller);
-  const MotionSettings& motion = scene.seismic.motion;
+  CHECK(case_file.static_stage.gravity == 0);
+  CHECK(case_file.static_stage.until.at_most == 20);
+  CHECK(case_file.seismic.base == BaseKind::fixed);
+  CHECK(case_file.seismic.sides == SideKind::roller);
+  const MotionSettings& motion = case_file.seismic.motion;
   CHECK(motion.processing.recorded_as == RecordedAs::upgoing);
   CHECK(motion.processing.baseline == Baseline::cubic);
   CHECK(motion.processing.taper == 1);
@@ -117,12 +117,12 @@ output:
   CHECK(motion.horizontal->record.quantity == Quantity::velocity);
   CHECK(motion.horizontal->scale == 1.5);
   CHECK(motion.vertical->built_in());
-  CHECK(scene.output.frames.fields == std::vector<std::string>{"velocity", "plastic_strain"});
-  CHECK(scene.output.gauges.points[1].name == "foot");
-  CHECK(scene.output.gauges.points[1].y == 6.2);
-  CHECK(scene.output.checkpoint.every == 120);
-  REQUIRE(scene.warnings.size() == 1);
-  CHECK_THAT(scene.warnings[0], Contains("poisson_ratio: 0.495 is above 0.49"));
+  CHECK(case_file.output.frames.fields == std::vector<std::string>{"velocity", "plastic_strain"});
+  CHECK(case_file.output.gauges.points[1].name == "foot");
+  CHECK(case_file.output.gauges.points[1].y == 6.2);
+  CHECK(case_file.output.checkpoint.every == 120);
+  REQUIRE(case_file.warnings.size() == 1);
+  CHECK_THAT(case_file.warnings[0], Contains("poisson_ratio: 0.495 is above 0.49"));
 }
 
 TEST_CASE("The README's example is understood, but for the models that do not exist", "[io]")
@@ -166,16 +166,18 @@ output:
                       Contains("von_mises"));
   CHECK(std::count(why.begin(), why.end(), '\n') == 2); // exit code, one problem
 
-  const Case scene = load(text, {"materials.slide={model: elastic, density: 1 t/m3, young_modulus: 1 GPa, "
-                                 "poisson_ratio: 0.2}"});
-  CHECK_THAT(scene.warnings.at(0),
+  const Case case_file =
+      load(text, {"materials.slide={model: elastic, density: 1 t/m3, young_modulus: 1 GPa, "
+                  "poisson_ratio: 0.2}"});
+  CHECK_THAT(case_file.warnings.at(0),
              Contains("surfaces.rockhead: rises or falls by") && Contains("of the right side"));
 }
 
-TEST_CASE("The slope's profile 'paper' and its paper.yaml are one case", "[io]")
+TEST_CASE("The slope's profile 'paper' has the cells and particles of the paper", "[io]")
 {
-  const std::filesystem::path folder = std::filesystem::path(SOURCE_DIR) / "cases/slope";
-  CHECK(load_case(folder / "case.yaml", {}, "paper").settings == load_case(folder / "paper.yaml").settings);
+  const Case paper = load_case(std::filesystem::path(SOURCE_DIR) / "cases/slope/case.yaml", {}, "paper");
+  CHECK(paper.grid.spacing == 0.25);
+  CHECK(paper.grid.particles_per_cell == 3);
 }
 
 TEST_CASE("A within motion is refused with the reason, and recorded_as has no default", "[io]")
@@ -226,36 +228,36 @@ TEST_CASE("Interfaces are sharp and inertia is lumped unless the case says other
 
 TEST_CASE("Mohr-Coulomb and slip weakening are read from their tables", "[io]")
 {
-  const Case scene = load(landslide);
-  const auto& mass = std::get<MohrCoulomb>(scene.materials[0].law);
+  const Case case_file = load(landslide);
+  const auto& mass = std::get<MohrCoulomb>(case_file.materials[0].law);
   CHECK(mass.friction_peak == Approx(38.5 * std::numbers::pi / 180));
   CHECK(mass.cohesion_residual == 0);
   CHECK(mass.softening_strain == Approx(1.7 / (std::sqrt(3.0) * 3 * 2)));
   CHECK(mass.dilation == 0);
-  const auto& zone = std::get<SlipWeakening>(scene.materials[1].law);
+  const auto& zone = std::get<SlipWeakening>(case_file.materials[1].law);
   CHECK(zone.friction_residual == 0.07);
   CHECK(zone.match == SlipWeakening::plane);
-  REQUIRE(scene.warnings.size() == 1);
-  CHECK_THAT(scene.warnings[0], Contains("materials.zone.thickness: 4 m is 2 cells"));
-  CHECK(scene.output.frames.fields == std::vector<std::string>{"displacement", "velocity", "stress",
-                                                               "plastic_strain", "opening", "dissipation",
-                                                               "opening_xx", "opening_yy", "opening_xy"});
+  REQUIRE(case_file.warnings.size() == 1);
+  CHECK_THAT(case_file.warnings[0], Contains("materials.zone.thickness: 4 m is 2 cells"));
+  CHECK(case_file.output.frames.fields == std::vector<std::string>{"displacement", "velocity", "stress",
+                                                                   "plastic_strain", "opening", "dissipation",
+                                                                   "opening_xx", "opening_yy", "opening_xy"});
   CHECK(std::get<SlipWeakening>(load(replaced(landslide, "    match: plane\n", "")).materials[1].law).match ==
         SlipWeakening::mc);
 }
 
 TEST_CASE("A record that is missing is told with where it can be had", "[io]")
 {
-  const Case scene = load(small + R"(seismic:
+  const Case case_file = load(small + R"(seismic:
   duration: 1 s
   motion:
     recorded_as: outcrop
     horizontal: {file: records/none.AT2, origin: "the archive, record 7"}
 )");
-  CHECK(scene.seismic.motion.horizontal->record.origin == "the archive, record 7");
+  CHECK(case_file.seismic.motion.horizontal->record.origin == "the archive, record 7");
   try
   {
-    read_record(scene.seismic.motion.horizontal->record);
+    read_record(case_file.seismic.motion.horizontal->record);
     FAIL("was read");
   }
   catch (const Error& error)

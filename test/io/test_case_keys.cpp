@@ -12,7 +12,7 @@ TEST_CASE("An unknown key is refused with its place, the allowed keys and the ne
         "case.yaml:9:3: materials.soil.poisson_ratio: is missing; it has no default\n"
         "case.yaml:13:5: materials.soil.poison_ratio: unknown key 'poison_ratio'; allowed: model, density, "
         "young_modulus or poisson_ratio; did you mean 'poisson_ratio'?\n");
-  CHECK_THAT(refusal(small + "tme_step: {safety: 0.5}\n"),
+  CHECK_THAT(refusal(small + "tme_step: {courant_number: 0.5}\n"),
              Contains("case.yaml:14:1: tme_step: unknown key") && Contains("did you mean 'time_step'?"));
 }
 
@@ -107,17 +107,17 @@ TEST_CASE("Friction that snaps back under the ground's own weight is warned of",
 
 TEST_CASE("Overrides win, are recorded and are checked under their own name", "[io]")
 {
-  const Case scene = load(small, {"grid.spacing=0.5 m", "domain.x[1]=50 m", "regions.0.material=soil",
-                                  "seismic.duration=3 s", "output.gauges.points.top=[1 m, 10 m]"});
-  CHECK(scene.grid.spacing == 0.5);
-  CHECK(scene.domain.right == 50);
-  CHECK(scene.seismic.duration == 3);
-  CHECK(scene.output.gauges.points.at(0).y == 10);
-  CHECK(scene.overrides.size() == 5);
+  const Case case_file = load(small, {"grid.spacing=0.5 m", "domain.x[1]=50 m", "regions.0.material=soil",
+                                      "seismic.duration=3 s", "output.gauges.points.top=[1 m, 10 m]"});
+  CHECK(case_file.grid.spacing == 0.5);
+  CHECK(case_file.domain.right == 50);
+  CHECK(case_file.seismic.duration == 3);
+  CHECK(case_file.output.gauges.points.at(0).y == 10);
+  CHECK(case_file.overrides.size() == 5);
   using Setting = std::pair<std::string, std::string>;
   for (const Setting& setting : {Setting{"grid.spacing", "0.5 m"}, Setting{"domain.x[1]", "50 m"},
                                  Setting{"output.gauges.points.top[1]", "10 m"}})
-    CHECK(std::count(scene.settings.begin(), scene.settings.end(), setting) == 1);
+    CHECK(std::count(case_file.settings.begin(), case_file.settings.end(), setting) == 1);
 
   CHECK(refusal(small, {"grid.spacng=1 m"}) ==
         "65\n--set grid.spacng=1 m: grid.spacng: unknown key 'spacng'; allowed: spacing, "
@@ -153,8 +153,8 @@ TEST_CASE("A profile is a named set of overrides, and --set goes on top of it", 
 
   const Case soft = load(text, {"static.ramp=3 s"}, "soft");
   CHECK(soft.materials[0].elastic().young == 20e6);
-  CHECK(soft.statics.gravity == 1);
-  CHECK(soft.statics.ramp == 3);
+  CHECK(soft.static_stage.gravity == 1);
+  CHECK(soft.static_stage.ramp == 3);
 }
 
 TEST_CASE("What a profile holds is checked as the file's own keys, at the profile's lines", "[io]")
@@ -191,9 +191,9 @@ TEST_CASE("An unknown profile is refused with the known ones", "[io]")
 
 TEST_CASE("A time step beyond the stable one is refused with the reason", "[io]")
 {
-  CHECK_THAT(refusal(small + "time_step: {safety: 0.8}\n"),
-             Contains("case.yaml:14:21: time_step.safety: is above 0.78"));
-  CHECK_THAT(refusal(small + "time_step: {safety: 0}\n"), Contains("must be above 0 and at most 1"));
+  CHECK_THAT(refusal(small + "time_step: {courant_number: 0.8}\n"),
+             Contains("case.yaml:14:21: time_step.courant_number: is above 0.78"));
+  CHECK_THAT(refusal(small + "time_step: {courant_number: 0}\n"), Contains("must be above 0 and at most 1"));
 }
 
 TEST_CASE("A missing case or profile has its own exit code", "[io]")

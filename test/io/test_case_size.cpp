@@ -1,7 +1,7 @@
 // Sizes and magnitudes of a case, looked at before anything is made.
 
-#include "io/case_size.hpp"
-#include "io/memory.hpp"
+#include "io/case/size.hpp"
+#include "io/common/memory.hpp"
 #include "test/io/case_texts.hpp"
 
 #include <chrono>

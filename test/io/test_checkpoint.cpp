@@ -1,11 +1,11 @@
-#include "io/checkpoint.hpp"
+#include "io/results/checkpoint.hpp"
 #include "solver/mpm/step.hpp"
-#include "test/scenes.hpp"
+#include "test/domains.hpp"
 
 #include <catch2/catch.hpp>
 
 using namespace mpm;
-using namespace scenes;
+using namespace domains;
 
 TEST_CASE("Ground that rests goes on resting after a restart, to the last bit", "[io]")
 {
@@ -16,10 +16,13 @@ TEST_CASE("Ground that rests goes on resting after a restart, to the last bit", 
     domain.particles.velocity_x[k] = domain.particles.x[k] < 8 ? 0.1 : 0;
   allow_rest(domain, 1e-3);
   const auto asleep = [](const Domain& d)
-  { return std::count_if(d.homes.begin(), d.homes.end(), [](const Home& home) { return home.asleep; }); };
+  {
+    return std::count_if(d.occupied_blocks.begin(), d.occupied_blocks.end(),
+                         [](const OccupiedBlock& occupied) { return occupied.asleep; });
+  };
   run(domain, 45, dt); // neither at a look nor before the first
   REQUIRE(asleep(domain) > 0);
-  REQUIRE(asleep(domain) < static_cast<long>(domain.homes.size()));
+  REQUIRE(asleep(domain) < static_cast<long>(domain.occupied_blocks.size()));
 
   h5::File file = h5::File::in_memory("checkpoint");
   save_domain(file, domain);

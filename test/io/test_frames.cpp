@@ -1,4 +1,4 @@
-#include "io/frames.hpp"
+#include "io/results/frames.hpp"
 #include "test/temporary_folder.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-#include "io/files.hpp"
+#include "io/common/files.hpp"
 #include "test/sealed.hpp"
 
 #include <catch2/catch.hpp>

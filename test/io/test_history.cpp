@@ -1,4 +1,4 @@
-#include "io/history.hpp"
+#include "io/results/history.hpp"
 #include "test/temporary_folder.hpp"
 
 #include <catch2/catch.hpp>

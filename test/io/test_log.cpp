@@ -1,6 +1,6 @@
 // What the screen shows: the live line on a terminal of some width, plain lines elsewhere, answers on stdout.
 
-#include "io/log.hpp"
+#include "io/run_folder/log.hpp"
 #include "test/temporary_folder.hpp"
 
 #include <catch2/catch.hpp>

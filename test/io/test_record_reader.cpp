@@ -1,4 +1,4 @@
-#include "io/record_reader.hpp"
+#include "io/records/reader.hpp"
 
 #include "test/io/record_texts.hpp"
 
@@ -238,7 +238,8 @@ TEST_CASE("real recordings have the peaks, times and durations they are known fo
     MotionProcessing raw;
     raw.baseline = Baseline::none;
     const auto report = make_ground_motion(record, raw).report;
-    CHECK(report.corrected.pga / standard_gravity == Approx(known.pga).margin(5e-4)); // the table's last digit
+    CHECK(report.corrected.pga / standard_gravity ==
+          Approx(known.pga).margin(5e-4)); // the table's last digit
     if (!std::isnan(known.pga_time)) CHECK(report.corrected.pga_time == Approx(known.pga_time).margin(0.1));
     CHECK(report.corrected.pgv == Approx(known.pgv).margin(known.pgv_rounding));
     const auto processed = make_ground_motion(record, {});

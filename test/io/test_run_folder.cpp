@@ -1,4 +1,4 @@
-#include "io/run_folder.hpp"
+#include "io/run_folder/run_folder.hpp"
 #include "test/temporary_folder.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,6 +1,6 @@
 // What a case says when every default is written out.
 
-#include "io/case.hpp"
+#include "io/case/case.hpp"
 #include "test/io/case_texts.hpp"
 #include "test/temporary_folder.hpp"
 
@@ -36,10 +36,10 @@ std::string difference(const Case& one, const Case& other)
 }
 
 /// Loads what `to_yaml` makes of a case, from another folder.
-Case read_back(const Case& scene)
+Case read_back(const Case& case_file)
 {
   const TemporaryFolder folder;
-  put(folder / "again.yaml", to_yaml(scene.settings));
+  put(folder / "again.yaml", to_yaml(case_file.settings));
   return load_case(folder / "again.yaml");
 }
 } // namespace
@@ -53,9 +53,10 @@ TEST_CASE("a case with every default written out reads back to the same settings
     if (entry.path().extension() != ".yaml" || name == "ladder.yaml") continue;
     if (contents(entry.path()).find("seismpm-case/1") == std::string::npos) continue;
     INFO(entry.path());
-    std::optional<Case> scene;
-    if (code_of([&] { scene = load_case(entry.path()); }) != 0) continue; // needs a file that is not shipped
-    CHECK(difference(read_back(*scene), *scene) == "");
+    std::optional<Case> case_file;
+    if (code_of([&] { case_file = load_case(entry.path()); }) != 0)
+      continue; // needs a file that is not shipped
+    CHECK(difference(read_back(*case_file), *case_file) == "");
     ++cases;
   }
   CHECK(cases > 10);
@@ -68,9 +69,9 @@ TEST_CASE("names with dots, empty lists and files of points read back too", "[io
   put(folder / "case.yaml",
       replaced(small, "{points: [[0 m, 10 m]]}", "{file: line.csv}") +
           "output: {frames: {fields: []}, gauges: {points: {\"top.1 [a]\": [1 m, 9 m]}}}\n");
-  const Case scene = load_case(folder / "case.yaml");
-  const Case again = read_back(scene);
-  CHECK(difference(again, scene) == "");
+  const Case case_file = load_case(folder / "case.yaml");
+  const Case again = read_back(case_file);
+  CHECK(difference(again, case_file) == "");
   REQUIRE(again.output.gauges.points.size() == 1);
   CHECK(again.output.gauges.points[0].name == "top.1 [a]");
   CHECK(again.output.frames.fields.empty());
@@ -83,11 +84,11 @@ TEST_CASE("units, defaults written out and the order of keys make no other setti
   CHECK(settings_of(small, {"grid.spacing=100 cm"}).at("grid.spacing") == "1 m");
   CHECK(settings_of(small, {"grid.particles_per_cell=3", "static.gravity=9.81 m/s2", "static.masses=scaled",
                             "static.until.at_most=60 s", "output.checkpoint.keep=2",
-                            "time_step.safety=0.5"}) == usual);
+                            "time_step.courant_number=0.5"}) == usual);
   CHECK(usual.at("static.until.at_most") == "60 s");
   CHECK(settings_of(small, {"static.ramp=40 s"}).at("static.until.at_most") == "80 s");
   for (const char* defaults :
-       {"static.damping", "time_step.safety", "output.frames.every", "grid.interfaces"})
+       {"static.damping", "time_step.courant_number", "output.frames.every", "grid.interfaces"})
     CHECK(usual.contains(defaults));
   const std::string shaken = small + "seismic: {duration: 1 s}\n";
   CHECK(settings_of(shaken) ==

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "test/domains.hpp"
 #include "test/materials/point.hpp"
-#include "test/scenes.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -14,7 +14,7 @@ inline constexpr double degree = std::numbers::pi / 180;
 /// The landslide mass of the paper's Table 2.
 inline MohrCoulomb rock()
 {
-  MohrCoulomb law = scenes::mohr_coulomb(38.5, 980e3);
+  MohrCoulomb law = domains::mohr_coulomb(38.5, 980e3);
   law.young = 3.6e9;
   law.density = 2450;
   law.friction_residual = 18.9 * degree;

@@ -1,7 +1,7 @@
 // Ground with a tension cut-off, cracked, closed and cracked again.
 
+#include "test/domains.hpp"
 #include "test/materials/point.hpp"
-#include "test/scenes.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -10,8 +10,8 @@
 
 using namespace mpm;
 using namespace point;
-using scenes::mohr_coulomb;
-using scenes::Random;
+using domains::mohr_coulomb;
+using domains::Random;
 
 namespace
 {

@@ -1,5 +1,5 @@
+#include "test/domains.hpp"
 #include "test/materials/rock.hpp"
-#include "test/scenes.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -7,8 +7,8 @@
 
 using namespace mpm;
 using namespace point;
-using scenes::mohr_coulomb;
-using scenes::Random;
+using domains::mohr_coulomb;
+using domains::Random;
 
 namespace
 {

@@ -2,7 +2,7 @@
 
 using namespace mpm;
 using namespace point;
-using scenes::mohr_coulomb;
+using domains::mohr_coulomb;
 
 TEST_CASE("Mohr-Coulomb parameters that do not go together are refused", "[materials]")
 {

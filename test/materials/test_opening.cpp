@@ -1,7 +1,7 @@
 // Ground that is torn apart and meets again.
 
+#include "test/domains.hpp"
 #include "test/materials/point.hpp"
-#include "test/scenes.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -9,8 +9,8 @@
 
 using namespace mpm;
 using namespace point;
-using scenes::mohr_coulomb;
-using scenes::Random;
+using domains::mohr_coulomb;
+using domains::Random;
 
 namespace
 {
@@ -63,7 +63,7 @@ TEST_CASE("Cohesive ground opens at its apex and closes at no pressure", "[mater
 
 TEST_CASE("A shear zone pulled apart carries nothing before it has closed again", "[materials]")
 {
-  SlipWeakening law = scenes::slip_weakening(0.56, 0.07, 1.7, 4);
+  SlipWeakening law = domains::slip_weakening(0.56, 0.07, 1.7, 4);
   REQUIRE(law.resolve(1).empty());
   Point p;
   p.stress = {-1e5, -1e5, -1e5, 0};

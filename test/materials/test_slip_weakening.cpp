@@ -1,18 +1,18 @@
+#include "test/domains.hpp"
 #include "test/materials/point.hpp"
-#include "test/scenes.hpp"
 
 #include <catch2/catch.hpp>
 
 using namespace mpm;
 using namespace point;
-using scenes::Random;
+using domains::Random;
 
 namespace
 {
 /// The shear zone of the paper's Table 2, `thickness` in m.
 SlipWeakening zone(SlipWeakening::Match match = SlipWeakening::mc, double thickness = 4)
 {
-  SlipWeakening law = scenes::slip_weakening(0.56, 0.07, 1.7, thickness);
+  SlipWeakening law = domains::slip_weakening(0.56, 0.07, 1.7, thickness);
   law.match = match;
   REQUIRE(law.resolve(1).empty());
   return law;

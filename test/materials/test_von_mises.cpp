@@ -1,12 +1,12 @@
+#include "test/domains.hpp"
 #include "test/materials/rate_equations.hpp"
-#include "test/scenes.hpp"
 
 #include <catch2/catch.hpp>
 
 using namespace mpm;
 using namespace point;
-using scenes::Random;
-using scenes::von_mises;
+using domains::Random;
+using domains::von_mises;
 
 namespace
 {

@@ -1,11 +1,11 @@
-#include "test/scenes.hpp"
+#include "test/domains.hpp"
 
 #include <catch2/catch.hpp>
 
 #include <numbers>
 
 using namespace mpm;
-using namespace scenes;
+using namespace domains;
 
 namespace
 {
@@ -98,7 +98,7 @@ TEST_CASE("Consistent inertia gives the same bits on any number of threads", "[m
 // Two long rows of cells, so that waves of 10 cells run where all nodes are full: (kh)^2/6 = 6.6 % too slow
 // with lumped mass. The correction acts on the mean of both kinds of motion alike, which the standing waves
 // of test_dispersion do not show.
-TEST_CASE("The energy ledger of consistent inertia closes", "[mpm]")
+TEST_CASE("The energy balance of consistent inertia closes", "[mpm]")
 {
   const Threads one(1);
   const double length = 20, cells = 10, k = 2 * std::numbers::pi / cells;
@@ -111,13 +111,13 @@ TEST_CASE("The energy ledger of consistent inertia closes", "[mpm]")
     p.affine_xy[n] = -0.5e-3 * k * std::cos(k * p.x[n]) * std::sin(0.5 * k * p.y[n]);
   }
   domain.consistent_inertia = true;
-  open_ledger(domain);
+  open_energy_balance(domain);
   const double start = kinetic_energy(domain), dt = 0.5 / elastic(1e7, 0.2).pressure_speed();
   double greatest_residual = 0, most_held = 0;
   for (int n = 0; n < 400; ++n)
   {
     run(domain, 1, dt);
-    const Energies e = energy_balance(domain);
+    const Energies e = energies_of(domain);
     greatest_residual = std::max(greatest_residual, std::fabs(residual(e)));
     most_held = std::max(most_held, e[Energy::transfer]);
   }

@@ -1,9 +1,9 @@
-#include "test/scenes.hpp"
+#include "test/domains.hpp"
 
 #include <catch2/catch.hpp>
 
 using namespace mpm;
-using namespace scenes;
+using namespace domains;
 
 namespace
 {
@@ -66,7 +66,7 @@ void apply(const Motion& m, Particles& p)
   }
 }
 
-/// Greatest difference of a run and of the same run after a motion of the scene, relative to each field's
+/// Greatest difference of a run and of the same run after a motion of the case, relative to each field's
 /// greatest value.
 double difference_after(const Motion& motion, int steps)
 {
@@ -105,7 +105,7 @@ TEST_CASE("One, two and three threads give the same particles to the last bit", 
     const Threads now(threads);
     Domain domain = collision();
     const std::vector<std::int64_t> order = domain.particles.id;
-    REQUIRE(domain.homes.size() >= 6);
+    REQUIRE(domain.occupied_blocks.size() >= 6);
     run(domain, 300, step_size());
     REQUIRE(domain.particles.id != order); // sorted on the way
     results.push_back(std::move(domain));
@@ -115,7 +115,8 @@ TEST_CASE("One, two and three threads give the same particles to the last bit", 
   CHECK(identical(results[0], results[2]));
 }
 
-TEST_CASE("A domain rebuilt from particles, homes and drift goes on as if it had not been left", "[mpm]")
+TEST_CASE("A domain rebuilt from particles, occupied_blocks and drift goes on as if it had not been left",
+          "[mpm]")
 {
   const Threads one(1);
   for (const int steps : {0, 37, 100})
@@ -124,7 +125,8 @@ TEST_CASE("A domain rebuilt from particles, homes and drift goes on as if it had
     run(whole, steps, step_size());
     if (steps > 0) REQUIRE(whole.drift > 0);
     Domain resumed = same_particles(whole);
-    for (const Home& home : whole.homes) resumed.homes.push_back({home.block, {}, home.ranges});
+    for (const OccupiedBlock& occupied : whole.occupied_blocks)
+      resumed.occupied_blocks.push_back({occupied.block, {}, occupied.ranges});
     resumed.drift = whole.drift;
     rebuild(resumed);
     CHECK(resumed.place == whole.place);
@@ -156,14 +158,14 @@ TEST_CASE("Sorting keeps every particle whole and its place by id", "[mpm]")
   for (std::size_t k = 0; k < strain.size(); ++k)
     REQUIRE(strain[k] == 1 + static_cast<double>(p.id[domain.material_begin[1] + k]));
   int next = 0;
-  for (const Home& home : domain.homes)
-    for (const Range& range : home.ranges)
+  for (const OccupiedBlock& occupied : domain.occupied_blocks)
+    for (const Range& range : occupied.ranges)
     {
       next += range.end - range.begin;
       for (int k = range.begin; k < range.end; ++k)
       {
-        REQUIRE(block_of(static_cast<int>(std::floor(p.x[k]))) == home.block.x);
-        REQUIRE(block_of(static_cast<int>(std::floor(p.y[k]))) == home.block.y);
+        REQUIRE(block_of(static_cast<int>(std::floor(p.x[k]))) == occupied.block.x);
+        REQUIRE(block_of(static_cast<int>(std::floor(p.y[k]))) == occupied.block.y);
       }
     }
   CHECK(next == p.size());
@@ -171,19 +173,19 @@ TEST_CASE("Sorting keeps every particle whole and its place by id", "[mpm]")
 
 // Round-off enters with 1e-16 times the coordinate in cells (up to 30) and is carried on by 200 steps of an
 // impact that amplifies it little: yielding is a continuous function of the state.
-TEST_CASE("A scene moved by whole cells goes on as before", "[mpm]")
+TEST_CASE("A case_file moved by whole cells goes on as before", "[mpm]")
 {
   CHECK(difference_after({1, 0, 0, 1, 3, -5}, 200) < 1e-12);
   CHECK(difference_after({1, 0, 0, 1, -16, 24}, 200) < 1e-12);
 }
 
-TEST_CASE("A mirrored scene stays the mirror image", "[mpm]")
+TEST_CASE("A mirrored case_file stays the mirror image", "[mpm]")
 {
   CHECK(difference_after({-1, 0, 0, 1}, 200) < 1e-12);
   CHECK(difference_after({1, 0, 0, -1}, 200) < 1e-12);
 }
 
-TEST_CASE("A scene turned by a right angle, gravity too, stays turned", "[mpm]")
+TEST_CASE("A case_file turned by a right angle, gravity too, stays turned", "[mpm]")
 {
   CHECK(difference_after({0, -1, 1, 0}, 200) < 1e-12);
 }

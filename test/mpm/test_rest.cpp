@@ -1,10 +1,10 @@
 #include "solver/mpm/step.hpp"
-#include "test/scenes.hpp"
+#include "test/domains.hpp"
 
 #include <catch2/catch.hpp>
 
 using namespace mpm;
-using namespace scenes;
+using namespace domains;
 
 namespace
 {
@@ -24,7 +24,7 @@ Domain bar()
 int sleeping(const Domain& domain)
 {
   int count = 0;
-  for (const Home& home : domain.homes) count += home.asleep;
+  for (const OccupiedBlock& occupied : domain.occupied_blocks) count += occupied.asleep;
   return count;
 }
 
@@ -50,9 +50,9 @@ TEST_CASE("Ground at rest is skipped, wakes before a wave, and misses no more th
     run(whole, 1, time_step);
     run(rested, 1, time_step);
     most_asleep = std::max(most_asleep, sleeping(rested));
-    for (const Home& home : rested.homes)
-      for (const Range& range : home.ranges)
-        if (home.asleep)
+    for (const OccupiedBlock& occupied : rested.occupied_blocks)
+      for (const Range& range : occupied.ranges)
+        if (occupied.asleep)
           for (int q = range.begin; q < range.end; ++q)
             ahead += std::fabs(whole.particles.velocity_x[whole.place[rested.particles.id[q]]]) > 2 * below;
   }
@@ -74,16 +74,16 @@ TEST_CASE("Nothing rests before it is allowed to, and all wakes when it no longe
   run(domain, 3 * window, time_step);
   CHECK(sleeping(domain) == 0);
   domain.gravity_y = -1e-6; // a gauge in ground that is there does not fall
-  domain.tracers.push_back({20, 4, 20, 4});
+  domain.gauges.push_back({20, 4, 20, 4});
   allow_rest(domain, below);
   run(domain, window, time_step);
   CHECK(sleeping(domain) == 0); // a second has to be watched from its beginning
   run(domain, window, time_step);
-  CHECK(sleeping(domain) == static_cast<int>(domain.homes.size()));
+  CHECK(sleeping(domain) == static_cast<int>(domain.occupied_blocks.size()));
   domain.particles.velocity_y.assign(domain.particles.size(), 1);
   run(domain, 1, time_step);
   CHECK(greatest(domain.particles.y) < 8); // asleep, whatever it is told
-  CHECK(domain.tracers[0].velocity_y == 0);
+  CHECK(domain.gauges[0].velocity_y == 0);
   allow_rest(domain, 0);
   CHECK(sleeping(domain) == 0);
   const double before = domain.particles.y[0];

@@ -1,11 +1,11 @@
-#include "test/scenes.hpp"
+#include "test/domains.hpp"
 
 #include <catch2/catch.hpp>
 
 #include <numbers>
 
 using namespace mpm;
-using namespace scenes;
+using namespace domains;
 
 namespace
 {

@@ -1,10 +1,10 @@
 #include "solver/mpm/chunk.hpp"
-#include "test/scenes.hpp"
+#include "test/domains.hpp"
 
 #include <catch2/catch.hpp>
 
 using namespace mpm;
-using scenes::Random;
+using domains::Random;
 
 TEST_CASE("A spline has four weights that are not negative and lead to its nodes", "[mpm]")
 {

@@ -1,10 +1,10 @@
 #include "solver/mpm/spline.hpp"
-#include "test/scenes.hpp"
+#include "test/domains.hpp"
 
 #include <catch2/catch.hpp>
 
 using namespace mpm;
-using namespace scenes;
+using namespace domains;
 
 namespace
 {

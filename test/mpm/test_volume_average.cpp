@@ -1,11 +1,11 @@
-#include "test/scenes.hpp"
+#include "test/domains.hpp"
 
 #include <catch2/catch.hpp>
 
 #include <map>
 
 using namespace mpm;
-using namespace scenes;
+using namespace domains;
 
 namespace
 {
@@ -121,7 +121,8 @@ TEST_CASE("Averaged volume changes are the same to the last bit on any threads a
   REQUIRE(whole.drift > 0); // particles stand in other cells than when they were sorted
   Domain resumed = same_particles(whole);
   resumed.average_volume = true;
-  for (const Home& home : whole.homes) resumed.homes.push_back({home.block, {}, home.ranges});
+  for (const OccupiedBlock& occupied : whole.occupied_blocks)
+    resumed.occupied_blocks.push_back({occupied.block, {}, occupied.ranges});
   resumed.drift = whole.drift;
   rebuild(resumed);
   run(whole, 100, step_size());
@@ -131,7 +132,7 @@ TEST_CASE("Averaged volume changes are the same to the last bit on any threads a
 
 // An average over cells is a projection, so that the averaged pressure does the averaged work: what the
 // stress holds is what the forces did, but for particles that change cells.
-TEST_CASE("The energy ledger closes with averaged volume changes as it does without", "[mpm]")
+TEST_CASE("The energy balance closes with averaged volume changes as it does without", "[mpm]")
 {
   const Threads one(1);
   std::vector<double> open;
@@ -141,9 +142,9 @@ TEST_CASE("The energy ledger closes with averaged volume changes as it does with
     for (int k = 0; k < domain.particles.size(); ++k)
       domain.particles.velocity_x[k] = 0.1 * std::sin(0.26 * domain.particles.x[k]);
     domain.average_volume = averaged;
-    open_ledger(domain);
+    open_energy_balance(domain);
     run(domain, 1000, 0.1 / domain.materials[0].elastic().pressure_speed());
-    const Energies balance = energy_balance(domain);
+    const Energies balance = energies_of(domain);
     open.push_back(std::fabs(residual(balance)) / largest_term(balance));
   }
   CHECK(open[0] < 0.02); // the bound that a run warns beyond

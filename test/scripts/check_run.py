@@ -30,7 +30,7 @@ class Place:
             path.parent.mkdir(exist_ok=True)
             path.write_text(STUB)
             path.chmod(0o755)
-        for name in ("cases/slope/case.yaml", "cases/slope/paper.yaml", "cases/hill/case.yaml", "a/quake.AT2",
+        for name in ("cases/slope/case.yaml", "cases/slope/other.yaml", "cases/hill/case.yaml", "a/quake.AT2",
                      "b/quake.AT2", "my $case's/case.yaml"):
             path = self.root / name
             path.parent.mkdir(parents=True, exist_ok=True)
@@ -94,7 +94,7 @@ def names(place):
     _, _, called = place.run("--out", "elsewhere")
     return wrong(place.folders() == ("static", "slope"),
                  place.folders("cases/slope/case.yaml") == ("static", "slope"),
-                 place.folders("cases/slope/paper.yaml") == ("slope_paper-static", "slope_paper"),
+                 place.folders("cases/slope/other.yaml") == ("slope_other-static", "slope_other"),
                  place.folders("cases/hill/case.yaml") == ("hill-static", "hill"),
                  place.folders("--profile", "quick") == ("static-quick", "slope-quick"),
                  place.folders("my $case's/case.yaml", "--profile", "a/b") == ("my $case's-static-a_b", "my $case's-a_b"),

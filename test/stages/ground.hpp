@@ -1,7 +1,7 @@
 #pragma once
 // Level ground and what shakes it, for tests against closed forms.
 
-#include "io/case.hpp"
+#include "io/case/case.hpp"
 #include "solver/stages/model.hpp"
 #include "test/temporary_folder.hpp"
 
@@ -64,13 +64,13 @@ inline GroundMotion pulse(double peak, double length, double total)
   return motion;
 }
 
-inline double stable_step(const Case& scene, const Model& model)
+inline double stable_step(const Case& case_file, const Model& model)
 {
-  return scene.safety * scene.grid.spacing / greatest_wave_speed(*model.main);
+  return case_file.courant_number * case_file.grid.spacing / greatest_wave_speed(*model.main);
 }
 
 /// K0 stress of level ground under gravity, exact to the particles' own spacing.
-inline void settle_at_once(Model& model, const Case& scene)
+inline void settle_at_once(Model& model, const Case& case_file)
 {
   model.for_each_domain(
       [&](Domain& domain, const std::string&)
@@ -79,8 +79,8 @@ inline void settle_at_once(Model& model, const Case& scene)
         for (std::size_t m = 0; m < domain.materials.size(); ++m)
           for (int k = domain.material_begin[m]; k < domain.material_begin[m + 1]; ++k)
           {
-            const double rock = scene.surfaces[0].height(0), top = scene.ground_height(0),
-                         g = scene.statics.gravity;
+            const double rock = case_file.surfaces[0].height(0), top = case_file.ground_height(0),
+                         g = case_file.static_stage.gravity;
             const double soil = 1800 * g * (top - std::max(p.y[k], rock)),
                          rest = 2200 * g * std::max(0.0, rock - p.y[k]);
             const double nu = domain.materials[m].elastic().poisson;
@@ -91,16 +91,16 @@ inline void settle_at_once(Model& model, const Case& scene)
 }
 
 /// Lets the ground find its discrete equilibrium between walls.
-inline void relax(Model& model, const Case& scene, double duration, bool grow)
+inline void relax(Model& model, const Case& case_file, double duration, bool grow)
 {
-  add_static_boundaries(model, scene);
-  const double dt = stable_step(scene, model);
+  add_static_boundaries(model, case_file);
+  const double dt = stable_step(case_file, model);
   for (int k = 0; k * dt < duration; ++k)
   {
     const double s = grow ? std::min(1.0, 2 * k * dt / duration) : 1;
     model.for_each_domain(
         [&](Domain& domain, const std::string&)
-        { domain.gravity_y = -scene.statics.gravity * s * s * s * (10 + s * (6 * s - 15)); });
+        { domain.gravity_y = -case_file.static_stage.gravity * s * s * s * (10 + s * (6 * s - 15)); });
     advance(model, k * dt, dt);
   }
 }

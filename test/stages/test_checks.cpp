@@ -1,7 +1,7 @@
 // What a stage looks after while it goes.
 
 #include "solver/stages/session.hpp"
-#include "test/scenes.hpp"
+#include "test/domains.hpp"
 #include "test/stages/ground.hpp"
 
 #include <catch2/catch.hpp>
@@ -29,19 +29,19 @@ TEST_CASE("a step is halved when the ground has loosened so far that waves outru
 {
   const Stage stage;
   Session session(stage.options(level_ground(1, 2, 8, 4, 8, 9.81)));
-  Model model = make_model(session.scene);
+  Model model = make_model(session.case_file);
   Clock clock;
   clock.step = 10;
-  clock.dt = stable_step(session.scene, model);
+  clock.dt = stable_step(session.case_file, model);
   const double dt = clock.dt, time = clock.time();
-  check_step(session, model, session.scene.safety, clock);
+  check_step(session, model, session.case_file.courant_number, clock);
   CHECK(clock.dt == dt);
   // c_p goes with the root of the volume: 0.5 grows to 0.69, then to 0.71.
   for (double& volume : model.main->particles.volume) volume *= 1.38 * 1.38;
-  check_step(session, model, session.scene.safety, clock);
+  check_step(session, model, session.case_file.courant_number, clock);
   CHECK(clock.dt == dt);
   for (double& volume : model.main->particles.volume) volume *= (1.42 * 1.42) / (1.38 * 1.38);
-  check_step(session, model, session.scene.safety, clock);
+  check_step(session, model, session.case_file.courant_number, clock);
   CHECK(clock.dt == dt / 2);
   CHECK(clock.time() == time);
 }
@@ -50,8 +50,8 @@ TEST_CASE("ground that is torn apart does not shorten the step", "[stages]")
 {
   // A cloud of particles without friction or cohesion's hold, blown up to e times its volume: it carries
   // nothing, and its waves are those of the ground that it will be when it has closed.
-  const MohrCoulomb law = scenes::mohr_coulomb(30, 0);
-  Domain cloud = scenes::make_domain({{law, {0, 0, 4, 4}, 0.5}}, 1);
+  const MohrCoulomb law = domains::mohr_coulomb(30, 0);
+  Domain cloud = domains::make_domain({{law, {0, 0, 4, 4}, 0.5}}, 1);
   const double speed = law.pressure_speed(), dt = 0.2 / speed;
   CHECK(greatest_wave_speed(cloud) == Approx(speed).epsilon(1e-12));
   for (int k = 0; k < cloud.particles.size(); ++k)
@@ -68,8 +68,8 @@ TEST_CASE("ground that is torn apart does not shorten the step", "[stages]")
 
 TEST_CASE("the stress of a side is compared with that of its column", "[stages]")
 {
-  const Case scene = scene_from(level_ground(1, 2, 8, 4, 8, 9.81));
-  Model model = make_model(scene);
+  const Case case_file = scene_from(level_ground(1, 2, 8, 4, 8, 9.81));
+  Model model = make_model(case_file);
   model.for_each_domain(
       [](Domain& domain, const std::string& column)
       {
@@ -77,6 +77,6 @@ TEST_CASE("the stress of a side is compared with that of its column", "[stages]"
         for (int k = 0; k < p.size(); ++k)
           p.stress_xx[k] = -1e3 * (8 - p.reference_y[k]) * (column.empty() && p.reference_x[k] > 4 ? 1.2 : 1);
       });
-  CHECK(side_stress_mismatch(model, scene, Edge::left) == 0);
-  CHECK(side_stress_mismatch(model, scene, Edge::right) == Approx(0.2));
+  CHECK(side_stress_mismatch(model, case_file, Edge::left) == 0);
+  CHECK(side_stress_mismatch(model, case_file, Edge::right) == Approx(0.2));
 }

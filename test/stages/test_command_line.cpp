@@ -2,7 +2,7 @@
 
 #include "solver/stages/command_line.hpp"
 
-#include "io/error.hpp"
+#include "io/common/error.hpp"
 #include "test/stages/programs.hpp"
 
 #include <nlohmann/json.hpp>

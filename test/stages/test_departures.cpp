@@ -29,10 +29,10 @@ struct Shaken
     options.overrides = {"seismic.base.kind=" + base, "seismic.sides.kind=" + sides};
     options.verbosity = Verbosity::quiet;
     session = std::make_unique<Session>(options);
-    model = make_model(session->scene);
-    settle_at_once(model, session->scene);
-    add_seismic_boundaries(model, session->scene, std::make_shared<IncomingWave>(), false);
-    model.for_each_domain([](Domain& domain, const std::string&) { open_ledger(domain); });
+    model = make_model(session->case_file);
+    settle_at_once(model, session->case_file);
+    add_seismic_boundaries(model, session->case_file, std::make_shared<IncomingWave>(), false);
+    model.for_each_domain([](Domain& domain, const std::string&) { open_energy_balance(domain); });
     departures = std::make_unique<Departures>(*session, model);
   }
 
@@ -118,18 +118,18 @@ TEST_CASE("nothing passes mirrored walls", "[stages]")
   CHECK_FALSE(ground.departures->take_out(2));
 }
 
-TEST_CASE("the ledger closes over a departure, and what left is in it", "[stages]")
+TEST_CASE("the energy balance closes over a departure, and what left is in it", "[stages]")
 {
   Shaken ground;
   Domain& main = *ground.model.main;
   for (int k = 0; k < main.particles.size(); ++k)
     if (main.particles.y[k] > 5) main.particles.velocity_x[k] = 3;
-  main.ledger.work = kinetic_energy(main); // somebody pushed it
+  main.energy.work = kinetic_energy(main); // somebody pushed it
   ground.move([](double, double y) { return Way{y > 5 ? 4.1 : 0, y > 5 ? -0.5 : 0}; });
-  const Energies before = energy_balance(main);
+  const Energies before = energies_of(main);
   const double kinetic = kinetic_energy(main);
   REQUIRE(ground.departures->take_out(2));
-  const Energies after = energy_balance(main);
+  const Energies after = energies_of(main);
   const double left = departure(ground.model).mass;
   CHECK(left > 0);
   CHECK(kinetic - kinetic_energy(main) == Approx(0.5 * left * 9));
@@ -141,11 +141,11 @@ TEST_CASE("the ledger closes over a departure, and what left is in it", "[stages
 TEST_CASE("a gauge leaves with its ground", "[stages]")
 {
   Shaken ground;
-  ground.session->scene.output.gauges.points = {{"inside", 10, 6}, {"outside", 20, 6}};
-  ground.model.main->tracers = {{10, 6, 10, 6}, {21.2, 4, 20, 6}};
+  ground.session->case_file.output.gauges.points = {{"inside", 10, 6}, {"outside", 20, 6}};
+  ground.model.main->gauges = {{10, 6, 10, 6}, {21.2, 4, 20, 6}};
   ground.departures->take_out(3);
-  CHECK(ground.model.main->tracers[0].x == 10);
-  CHECK(std::isnan(ground.model.main->tracers[1].x));
+  CHECK(ground.model.main->gauges[0].x == 10);
+  CHECK(std::isnan(ground.model.main->gauges[1].x));
   CHECK_THAT(ground.session->log.warnings().at(0), Contains("gauge outside"));
   ground.departures->take_out(3.1); // told once
   CHECK(ground.session->log.warnings().size() == 1);

@@ -66,10 +66,10 @@ struct Shaken
 };
 
 /// Shakes a settled model and tells where its base ends.
-Shaken shake(Model& model, const Case& scene, const IncomingWave& wave, double duration)
+Shaken shake(Model& model, const Case& case_file, const IncomingWave& wave, double duration)
 {
-  add_seismic_boundaries(model, scene, std::make_shared<IncomingWave>(wave), false);
-  const double dt = stable_step(scene, model);
+  add_seismic_boundaries(model, case_file, std::make_shared<IncomingWave>(wave), false);
+  const double dt = stable_step(case_file, model);
   Shaken result;
   std::array<double, 2> input{};
   for (int k = 0; k * dt < duration; ++k)
@@ -87,12 +87,12 @@ Shaken shake(Model& model, const Case& scene, const IncomingWave& wave, double d
 BaseDrift shake_slope(const std::string& spring, double spacing, double duration)
 {
   const std::string strength = "strength: {peak: 65 kPa, residual: 25 kPa}, softening: {displacement: 0.2 m}";
-  const Case scene = scene_from(slope(strength, spring, spacing));
-  Model model = make_model(scene);
-  relax(model, scene, 16, true);
+  const Case case_file = scene_from(slope(strength, spring, spacing));
+  Model model = make_model(case_file);
+  relax(model, case_file, 16, true);
   IncomingWave wave;
   wave.horizontal = long_motion(0.12, 15, 0.02);
-  const BaseDrift drift = shake(model, scene, wave, duration).drift;
+  const BaseDrift drift = shake(model, case_file, wave, duration).drift;
   REQUIRE(plastic_strain(model) > 0.1); // it has failed
   return drift;
 }
@@ -102,14 +102,14 @@ void check_long_record(double spacing)
 {
   const std::string text =
       yielding(level_ground(spacing, 2, 4 * spacing, 8, 16, 9.81), "strength: {peak: 50 kPa}");
-  const Case scene = scene_from(text);
-  Model model = make_model(scene);
-  settle_at_once(model, scene);
-  relax(model, scene, 6, false);
+  const Case case_file = scene_from(text);
+  Model model = make_model(case_file);
+  settle_at_once(model, case_file);
+  relax(model, case_file, 6, false);
   IncomingWave wave;
   wave.horizontal = long_motion(0.1, 295, 0.1);
   wave.vertical = long_motion(0.02, 295, -0.01);
-  const Shaken shaken = shake(model, scene, wave, 300);
+  const Shaken shaken = shake(model, case_file, wave, 300);
   INFO("off by " << shaken.drift.greatest << " m of " << shaken.greatest_input << " m");
   CHECK(plastic_strain(model) > 1e-4);
   CHECK(shaken.greatest_input > 0.1);
@@ -151,12 +151,12 @@ TEST_CASE("ground of different height at its sides stays still without input (34
 {
   // METHODS tests 16 and 34: displacement below 1e-4 h, and none to come in as much time again. What the
   // static stage leaves unbalanced still creeps.
-  const Case scene = scene_from(slope("strength: {peak: 1 MPa}", "auto", 2.5));
-  Model model = make_model(scene);
-  relax(model, scene, 30, true);
-  const BaseDrift drift = shake(model, scene, {}, 20).drift;
+  const Case case_file = scene_from(slope("strength: {peak: 1 MPa}", "auto", 2.5));
+  Model model = make_model(case_file);
+  relax(model, case_file, 30, true);
+  const BaseDrift drift = shake(model, case_file, {}, 20).drift;
   const double speed = greatest_speed(*model.main);
   INFO("base off by " << drift.greatest << " m, speed " << speed);
-  CHECK(drift.greatest < 1e-4 * scene.grid.spacing);
-  CHECK(speed * 20 < 1e-4 * scene.grid.spacing);
+  CHECK(drift.greatest < 1e-4 * case_file.grid.spacing);
+  CHECK(speed * 20 < 1e-4 * case_file.grid.spacing);
 }

@@ -1,5 +1,5 @@
 #include "solver/stages/energy_watch.hpp"
-#include "test/scenes.hpp"
+#include "test/domains.hpp"
 #include "test/stages/ground.hpp"
 
 #include <catch2/catch.hpp>
@@ -37,24 +37,24 @@ double lost_on_the_way(double length, double way, double speed, double h, double
 struct Rock
 {
   Rock(double length, const std::string& inertia)
-      : scene(scene_from(text(inertia))), model(make_model(scene)), dt(stable_step(scene, model))
+      : case_file(scene_from(text(inertia))), model(make_model(case_file)), dt(stable_step(case_file, model))
   {
     IncomingWave wave;
     wave.horizontal = pulse(0.01, length, 1);
-    add_seismic_boundaries(model, scene, std::make_shared<IncomingWave>(wave), false);
-    open_ledger(*model.left->domain);
+    add_seismic_boundaries(model, case_file, std::make_shared<IncomingWave>(wave), false);
+    open_energy_balance(*model.left->domain);
   }
   Energies after(double time)
   {
     for (; step * dt < time; ++step) model.left->advance(step * dt, dt);
-    return energy_balance(*model.left->domain);
+    return energies_of(*model.left->domain);
   }
   static std::string text(const std::string& inertia)
   {
     std::string level = level_ground(0.5, 3, 8, 20, 20, 0);
     return level.replace(level.find("duration: 1 s"), 13, "duration: 1 s\n  inertia: " + inertia);
   }
-  Case scene;
+  Case case_file;
   Model model;
   double dt;
   int step = 0;
@@ -69,7 +69,7 @@ TEST_CASE("a pulse brings rho c times the integral of v^2, carries half of it as
                speed = scene_from(level_ground(0.5, 3, 8, 20, 20, 0)).materials[0].elastic().shear_speed();
   const bool lumped = GENERATE(true, false);
   Rock rock(length, lumped ? "lumped" : "consistent");
-  const double width = rock.scene.grid.particle_spacing(); // a column is as wide as one particle
+  const double width = rock.case_file.grid.particle_spacing(); // a column is as wide as one particle
   const double brought = 2200 * speed * width * 1e-4 * length * 35 / 128;
 
   // Wholly inside, before it reaches the surface.
@@ -102,20 +102,20 @@ TEST_CASE("a pulse brings rho c times the integral of v^2, carries half of it as
   CHECK(gone[Energy::kinetic] + gone[Energy::elastic] < 1e-3 * brought);
   CHECK(gone[Energy::transfer] == Approx(lost * brought).epsilon(0.2));
   CHECK(gone[Energy::radiated_base] == Approx(brought * (1 - lost)).epsilon(0.2 * lost + 1e-3));
-  CHECK(std::fabs(residual(gone)) < closing_bound(gone, rock.model.left->domain->ledger));
+  CHECK(std::fabs(residual(gone)) < closing_bound(gone, rock.model.left->domain->energy));
 }
 
-TEST_CASE("level ground has its column's ledger, times its width, and nothing goes through its sides",
+TEST_CASE("level ground has its column's energy balance, times its width, and nothing goes through its sides",
           "[stages]")
 {
   // The model moves as its column to 1e-3 of the peak (test 33), so its energies are the column's to 2e-3.
   const double gravity = GENERATE(0.0, 9.81);
-  const Case scene = scene_from(level_ground(1, 2, 30, 10, 20, gravity));
-  Model model = make_model(scene);
-  const double dt = stable_step(scene, model);
+  const Case case_file = scene_from(level_ground(1, 2, 30, 10, 20, gravity));
+  Model model = make_model(case_file);
+  const double dt = stable_step(case_file, model);
   if (gravity > 0)
   {
-    add_static_boundaries(model, scene);
+    add_static_boundaries(model, case_file);
     for (int k = 0; k * dt < 6; ++k)
     {
       const double s = std::min(1.0, k * dt / 3);
@@ -127,12 +127,12 @@ TEST_CASE("level ground has its column's ledger, times its width, and nothing go
   IncomingWave wave;
   wave.horizontal = pulse(0.25, 0.25, 1);
   wave.vertical = pulse(0.15, 0.2, 1);
-  add_seismic_boundaries(model, scene, std::make_shared<IncomingWave>(wave), false);
-  model.for_each_domain([](Domain& domain, const std::string&) { open_ledger(domain); });
+  add_seismic_boundaries(model, case_file, std::make_shared<IncomingWave>(wave), false);
+  model.for_each_domain([](Domain& domain, const std::string&) { open_energy_balance(domain); });
   for (int k = 0; k * dt < 0.6; ++k) advance(model, k * dt, dt);
-  const Energies whole = energy_balance(*model.main), column = energy_balance(*model.left->domain);
+  const Energies whole = energies_of(*model.main), column = energies_of(*model.left->domain);
   const double brought = whole[Energy::incoming];
-  const double width = 30 / scene.grid.particle_spacing(); // a column is as wide as one particle
+  const double width = 30 / case_file.grid.particle_spacing(); // a column is as wide as one particle
   for (std::size_t k = 0; k < energy_terms.size(); ++k)
   {
     INFO("gravity " << gravity << ", " << energy_terms[k].name << ": " << whole.value[k] / brought
@@ -140,26 +140,26 @@ TEST_CASE("level ground has its column's ledger, times its width, and nothing go
     CHECK(std::fabs(whole.value[k] - width * column.value[k]) < 2e-3 * brought);
   }
   INFO("residual " << residual(whole) / brought);
-  CHECK(std::fabs(residual(whole)) < closing_bound(whole, model.main->ledger));
+  CHECK(std::fabs(residual(whole)) < closing_bound(whole, model.main->energy));
 }
 
 TEST_CASE("energy of a step that is too long is caught as coming from nowhere, and of a good one never",
           "[stages]")
 {
-  const scenes::Threads one(1);
+  const domains::Threads one(1);
   for (const double courant : {0.5, 0.78, 1.5})
   {
-    Domain domain = scenes::make_domain({{scenes::elastic(), {0.2, 0.4, 6, 5}}});
-    scenes::random_velocities(domain, 1e-3, 31);
-    scenes::random_affine(domain, 1e-3, 32);
-    open_ledger(domain);
-    const double dt = courant / scenes::elastic().pressure_speed();
+    Domain domain = domains::make_domain({{domains::elastic(), {0.2, 0.4, 6, 5}}});
+    domains::random_velocities(domain, 1e-3, 31);
+    domains::random_affine(domain, 1e-3, 32);
+    open_energy_balance(domain);
+    const double dt = courant / domains::elastic().pressure_speed();
     const auto shake = [&]
     {
       for (int k = 0; k < 1000; ++k)
       {
-        scenes::run(domain, 1, dt);
-        check_growth(domain, energy_balance(domain));
+        domains::run(domain, 1, dt);
+        check_growth(domain, energies_of(domain));
       }
     };
     INFO("Courant number " << courant);
@@ -170,22 +170,22 @@ TEST_CASE("energy of a step that is too long is caught as coming from nowhere, a
   }
 }
 
-TEST_CASE("energy that is put in past the ledger is seen", "[stages]")
+TEST_CASE("energy that is put in past the energy balance is seen", "[stages]")
 {
-  const scenes::Threads one(1);
-  Domain domain = scenes::make_domain({{scenes::elastic(), {0.2, 0.4, 6, 5}}});
-  scenes::random_velocities(domain, 1e-3, 31);
-  open_ledger(domain);
-  const double dt = 0.5 / scenes::elastic().pressure_speed();
-  scenes::run(domain, 100, dt);
+  const domains::Threads one(1);
+  Domain domain = domains::make_domain({{domains::elastic(), {0.2, 0.4, 6, 5}}});
+  domains::random_velocities(domain, 1e-3, 31);
+  open_energy_balance(domain);
+  const double dt = 0.5 / domains::elastic().pressure_speed();
+  domains::run(domain, 100, dt);
   const auto closes = [&]
   {
-    const Energies e = energy_balance(domain);
-    return std::fabs(residual(e)) <= closing_bound(e, domain.ledger);
+    const Energies e = energies_of(domain);
+    return std::fabs(residual(e)) <= closing_bound(e, domain.energy);
   };
   CHECK(closes());
   for (double& s : domain.particles.stress_yy) s += 30; // Pa: a fifth of what the block began with
-  const double put = 0.5 * 30 * 30 * (1 - 0.09) / 1e6 * 30 / domain.ledger.kinetic;
+  const double put = 0.5 * 30 * 30 * (1 - 0.09) / 1e6 * 30 / domain.energy.kinetic;
   INFO("put in: " << put << " of the start");
   CHECK(!closes());
 }

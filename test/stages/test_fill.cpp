@@ -12,13 +12,13 @@ namespace
 /// Ground of one material under a surface.
 Case hill_case(Surface surface, double spacing, int per_cell)
 {
-  Case scene;
-  scene.grid = {spacing, per_cell};
-  scene.domain = {-20, 60, 0};
-  scene.surfaces = {std::move(surface)};
-  scene.materials = {{"soil", Elastic{}, {}}};
-  scene.regions = {{.material = 0, .above = {}, .below = 0}};
-  return scene;
+  Case case_file;
+  case_file.grid = {spacing, per_cell};
+  case_file.domain = {-20, 60, 0};
+  case_file.surfaces = {std::move(surface)};
+  case_file.materials = {{"soil", Elastic{}, {}}};
+  case_file.regions = {{.material = 0, .above = {}, .below = 0}};
+  return case_file;
 }
 
 double total(const Filling& filling, int material = -1)
@@ -63,9 +63,9 @@ TEST_CASE("The area of a Gaussian hill is exact", "[stages]")
 
 TEST_CASE("Every column has the mass and the centre of mass of its geometry", "[stages]")
 {
-  const Case scene = hill_case({"slope", Polyline{{0, 40}, {11.13, 3.21}}, 0}, 0.5, 3);
-  const Filling filling = fill(scene);
-  const double d = scene.grid.particle_spacing();
+  const Case case_file = hill_case({"slope", Polyline{{0, 40}, {11.13, 3.21}}, 0}, 0.5, 3);
+  const Filling filling = fill(case_file);
+  const double d = case_file.grid.particle_spacing();
   for (std::size_t i = 0, end; i < filling.seeds.size(); i = end)
   {
     const double x = filling.seeds[i].x;
@@ -75,7 +75,7 @@ TEST_CASE("Every column has the mass and the centre of mass of its geometry", "[
       volume += filling.seeds[end].volume;
       moment += filling.seeds[end].volume * filling.seeds[end].y;
     }
-    const double mean = scene.surfaces[0].mean_height(x - d / 2, x + d / 2);
+    const double mean = case_file.surfaces[0].mean_height(x - d / 2, x + d / 2);
     REQUIRE(volume == Approx(d * mean).epsilon(1e-12));
     REQUIRE(moment == Approx(d * mean * mean / 2).epsilon(1e-12));
   }
@@ -83,45 +83,45 @@ TEST_CASE("Every column has the mass and the centre of mass of its geometry", "[
 
 TEST_CASE("Each material of a layered slope has the area of its geometry", "[stages]")
 {
-  Case scene = hill_case({"rockhead", Polyline{{0, 40}, {11.13, 3.21}}, 0}, 0.5, 3);
-  scene.surfaces.push_back({"ground", Polyline{{0, 40}, {11.13, 3.21}}, 2.718});
-  scene.materials.push_back({"rock", Elastic{}, {}});
-  scene.regions = {{.material = 0, .above = 0, .below = 1}, {.material = 1, .above = {}, .below = 0}};
-  const Filling filling = fill(scene);
+  Case case_file = hill_case({"rockhead", Polyline{{0, 40}, {11.13, 3.21}}, 0}, 0.5, 3);
+  case_file.surfaces.push_back({"ground", Polyline{{0, 40}, {11.13, 3.21}}, 2.718});
+  case_file.materials.push_back({"rock", Elastic{}, {}});
+  case_file.regions = {{.material = 0, .above = 0, .below = 1}, {.material = 1, .above = {}, .below = 0}};
+  const Filling filling = fill(case_file);
   CHECK(total(filling, 0) == Approx(80 * 2.718).epsilon(1e-12));
   CHECK(total(filling, 1) == Approx(20 * 11.13 + 40 * (11.13 + 3.21) / 2 + 20 * 3.21).epsilon(1e-12));
 }
 
 TEST_CASE("Regions of one material are filled as one", "[stages]")
 {
-  Case scene = hill_case({"ground", Polyline{{0}, {10}}, 0}, 1, 2);
-  scene.surfaces.push_back({"inside", Polyline{{0}, {3.3}}, 0});
-  scene.regions = {{.material = 0, .above = 1, .below = 0}, {.material = 0, .above = {}, .below = 1}};
-  const Filling filling = fill(scene);
+  Case case_file = hill_case({"ground", Polyline{{0}, {10}}, 0}, 1, 2);
+  case_file.surfaces.push_back({"inside", Polyline{{0}, {3.3}}, 0});
+  case_file.regions = {{.material = 0, .above = 1, .below = 0}, {.material = 0, .above = {}, .below = 1}};
+  const Filling filling = fill(case_file);
   for (const Seed& s : filling.seeds) REQUIRE(s.volume == 0.25);
 }
 
 TEST_CASE("A region between two x takes its columns, first match wins", "[stages]")
 {
-  Case scene = hill_case({"ground", Polyline{{0}, {10}}, 0}, 1, 2);
-  scene.materials.push_back({"block", Elastic{}, {}});
-  scene.regions = {{.material = 1, .above = {}, .below = 0, .left = 0, .right = 5},
-                   {.material = 0, .above = {}, .below = 0}};
-  CHECK(total(fill(scene), 1) == Approx(50).epsilon(1e-12));
-  CHECK(total(fill(scene), 0) == Approx(750).epsilon(1e-12));
+  Case case_file = hill_case({"ground", Polyline{{0}, {10}}, 0}, 1, 2);
+  case_file.materials.push_back({"block", Elastic{}, {}});
+  case_file.regions = {{.material = 1, .above = {}, .below = 0, .left = 0, .right = 5},
+                       {.material = 0, .above = {}, .below = 0}};
+  CHECK(total(fill(case_file), 1) == Approx(50).epsilon(1e-12));
+  CHECK(total(fill(case_file), 0) == Approx(750).epsilon(1e-12));
 }
 
 TEST_CASE("A layer too thin for a particle is reported as lost", "[stages]")
 {
-  Case scene = hill_case({"rockhead", Polyline{{0}, {10}}, 0}, 1, 2);
-  scene.surfaces.push_back({"ground", Polyline{{0}, {10}}, GENERATE(0.2, 0.24999, 0.25001)});
-  scene.materials.push_back({"skin", Elastic{}, {}});
-  scene.regions = {{.material = 1, .above = 0, .below = 1}, {.material = 0, .above = {}, .below = 0}};
-  const Filling filling = fill(scene);
-  const double area = 80 * scene.surfaces[1].up;
-  CHECK(drawn_regions(scene)[0].area == Approx(area).epsilon(1e-9));
-  CHECK(drawn_regions(scene)[0].length == Approx(80).epsilon(1e-9));
-  const bool lost = scene.surfaces[1].up < 0.25;
+  Case case_file = hill_case({"rockhead", Polyline{{0}, {10}}, 0}, 1, 2);
+  case_file.surfaces.push_back({"ground", Polyline{{0}, {10}}, GENERATE(0.2, 0.24999, 0.25001)});
+  case_file.materials.push_back({"skin", Elastic{}, {}});
+  case_file.regions = {{.material = 1, .above = 0, .below = 1}, {.material = 0, .above = {}, .below = 0}};
+  const Filling filling = fill(case_file);
+  const double area = 80 * case_file.surfaces[1].up;
+  CHECK(drawn_regions(case_file)[0].area == Approx(area).epsilon(1e-9));
+  CHECK(drawn_regions(case_file)[0].length == Approx(80).epsilon(1e-9));
+  const bool lost = case_file.surfaces[1].up < 0.25;
   CHECK(total(filling, 1) == Approx(lost ? 0 : area).epsilon(1e-9));
   CHECK(filling.regions[0].area == Approx(lost ? 0 : area).epsilon(1e-9));
   CHECK(filling.regions[0].lost.length == Approx(lost ? 80 : 0));

@@ -1,6 +1,6 @@
 // What is said of ground that particles do not fill as it was drawn.
 
-#include "io/error.hpp"
+#include "io/common/error.hpp"
 #include "solver/stages/filling_report.hpp"
 #include "test/stages/ground.hpp"
 #include "test/stages/programs.hpp"
@@ -44,11 +44,11 @@ std::string said_of(const std::string& text)
 {
   const TemporaryFolder folder;
   put(folder / "case.yaml", text);
-  const Case scene = load_case(folder / "case.yaml");
+  const Case case_file = load_case(folder / "case.yaml");
   Log log(Verbosity::quiet);
   try
   {
-    report_filling(log, scene, fill(scene));
+    report_filling(log, case_file, fill(case_file));
   }
   catch (const Error& error)
   {

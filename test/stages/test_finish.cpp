@@ -142,13 +142,18 @@ std::vector<Wrong> wrong_states()
       fewer("materials/clay/plastic_strain"),
       doubles("materials/clay/plastic_strain", NAN),
       doubles("materials/clay/plastic_strain", -0.1),
-      {"grid/homes far", [](hid_t f) { set_integers(f, "grid/homes", [](auto& v) { v[0] = 1 << 30; }); }},
-      {"grid/homes elsewhere", [](hid_t f) { set_integers(f, "grid/homes", [](auto& v) { v[0] -= 3; }); }},
-      {"grid/homes material", [](hid_t f) { set_integers(f, "grid/homes", [](auto& v) { v[2] = 9; }); }},
-      {"grid/homes begin", [](hid_t f) { set_integers(f, "grid/homes", [](auto& v) { v[3] = -4; }); }},
-      {"grid/homes end", [](hid_t f) { set_integers(f, "grid/homes", [](auto& v) { v[4] -= 1; }); }},
-      {"grid/homes wide",
-       [](hid_t f) { set_integers(f, "grid/homes", [](auto& v) { v[0] = (std::int64_t(1) << 32); }); }},
+      {"grid/occupied_blocks far",
+       [](hid_t f) { set_integers(f, "grid/occupied_blocks", [](auto& v) { v[0] = 1 << 30; }); }},
+      {"grid/occupied_blocks elsewhere",
+       [](hid_t f) { set_integers(f, "grid/occupied_blocks", [](auto& v) { v[0] -= 3; }); }},
+      {"grid/occupied_blocks material",
+       [](hid_t f) { set_integers(f, "grid/occupied_blocks", [](auto& v) { v[2] = 9; }); }},
+      {"grid/occupied_blocks begin",
+       [](hid_t f) { set_integers(f, "grid/occupied_blocks", [](auto& v) { v[3] = -4; }); }},
+      {"grid/occupied_blocks end",
+       [](hid_t f) { set_integers(f, "grid/occupied_blocks", [](auto& v) { v[4] -= 1; }); }},
+      {"grid/occupied_blocks wide", [](hid_t f)
+       { set_integers(f, "grid/occupied_blocks", [](auto& v) { v[0] = (std::int64_t(1) << 32); }); }},
       real("grid", "drift", -0.1),
       real("grid", "drift", 3),
       real("grid", "spacing", 0.5),
@@ -171,8 +176,8 @@ std::vector<Wrong> wrong_states()
       doubles("energy/work", NAN),
       fewer("rest/settings"),
       doubles("rest/settings", -1),
-      fewer("tracers/x"),
-      doubles("tracers/velocity_x", NAN),
+      fewer("gauges/x"),
+      doubles("gauges/velocity_x", NAN),
       doubles("free_field/left/particles/stress", NAN),
       doubles("output/history/gauges/time", -1),
       fewer("output/history/gauges/time"),
@@ -265,7 +270,7 @@ TEST_CASE("a run takes no state of another run, of another stage or that is not 
 TEST_CASE("a static state that had not settled is no static state", "[stages]")
 {
   const Bench bench;
-  const Arguments slowly{"--set", "static.safety=0.1"};
+  const Arguments slowly{"--set", "static.courant_number=0.1"};
   terminate(bench, "mpm-static", bench.static_arguments("static", slowly), bench / "static");
   const Ending ending =
       bench.run("mpm-seismic", {bench.path("case.yaml"), "--from", checkpoints(bench / "static").back(),

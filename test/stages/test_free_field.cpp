@@ -8,12 +8,12 @@ using namespace mpm::test;
 TEST_CASE("level ground under gravity stays still without input (16, shortened)", "[stages]")
 {
   // METHODS test 16: displacement below 1e-4 h and speed below 1e-6 m/s; 5 s instead of 100.
-  const Case scene = scene_from(level_ground(1, 2, 20, 10, 20, 9.81));
-  Model model = make_model(scene);
-  settle_at_once(model, scene);
-  relax(model, scene, 6, false);
-  add_seismic_boundaries(model, scene, std::make_shared<IncomingWave>(), false);
-  const double dt = stable_step(scene, model);
+  const Case case_file = scene_from(level_ground(1, 2, 20, 10, 20, 9.81));
+  Model model = make_model(case_file);
+  settle_at_once(model, case_file);
+  relax(model, case_file, 6, false);
+  add_seismic_boundaries(model, case_file, std::make_shared<IncomingWave>(), false);
+  const double dt = stable_step(case_file, model);
   double speed = 0;
   for (int k = 0; k * dt < 5; ++k)
   {
@@ -26,7 +26,7 @@ TEST_CASE("level ground under gravity stays still without input (16, shortened)"
     moved = std::max(moved, std::hypot(p.x[k] - p.reference_x[k], p.y[k] - p.reference_y[k]));
   INFO("speed " << speed << " m/s, moved " << moved << " m");
   CHECK(speed < 1e-6);
-  CHECK(moved < 1e-4 * scene.grid.spacing);
+  CHECK(moved < 1e-4 * case_file.grid.spacing);
 }
 
 TEST_CASE("the switch leaves no acceleration behind in the boundary strip and corners (29)", "[stages]")
@@ -35,11 +35,11 @@ TEST_CASE("the switch leaves no acceleration behind in the boundary strip and co
   std::string text = level_ground(1, 2, 60, 10, 20, 9.81);
   text.replace(text.find("ground: {points: [[0 m, 20 m], [60 m, 20 m]]}"), 45,
                "ground: {points: [[0 m, 24 m], [20 m, 24 m], [40 m, 20 m], [60 m, 20 m]]}");
-  const Case scene = scene_from(text);
-  Model model = make_model(scene);
-  relax(model, scene, 24, true);
-  add_seismic_boundaries(model, scene, std::make_shared<IncomingWave>(), false);
-  const double dt = stable_step(scene, model);
+  const Case case_file = scene_from(text);
+  Model model = make_model(case_file);
+  relax(model, case_file, 24, true);
+  add_seismic_boundaries(model, case_file, std::make_shared<IncomingWave>(), false);
+  const double dt = stable_step(case_file, model);
   advance(model, 0, dt);
   const Particles& p = model.main->particles;
   double strip = 0, inside = 0;
@@ -61,17 +61,17 @@ TEST_CASE("gravity adds nothing to the motion of a base that moves over the grid
   const double length = 1.0, peak = 3.2 / (2 * length * 3.0 / 8.0); // integral of sin^4 is 3/8 of the length
   const auto motion = [&](double gravity)
   {
-    const Case scene = scene_from(level_ground(1, 3, 12, 10, 10, gravity));
-    Model model = make_model(scene);
+    const Case case_file = scene_from(level_ground(1, 3, 12, 10, 10, gravity));
+    Model model = make_model(case_file);
     if (gravity > 0)
     {
-      settle_at_once(model, scene);
-      relax(model, scene, 4, false);
+      settle_at_once(model, case_file);
+      relax(model, case_file, 4, false);
     }
     IncomingWave wave;
     wave.vertical = pulse(peak, length, 2);
-    add_seismic_boundaries(model, scene, std::make_shared<IncomingWave>(wave), false);
-    const double dt = stable_step(scene, model);
+    add_seismic_boundaries(model, case_file, std::make_shared<IncomingWave>(wave), false);
+    const double dt = stable_step(case_file, model);
     std::vector<double> velocity; // of every particle by id, every 20 steps
     for (int k = 0; k * dt < 1.5; ++k)
     {
@@ -95,12 +95,12 @@ TEST_CASE("level ground stays still after the switch whatever its base and sides
   std::string text = level_ground(1, 2, 16, 5, 10, 9.81);
   text.replace(text.find("kind: compliant"), 15, "kind: " + base);
   text.replace(text.find("kind: free_field"), 16, "kind: " + sides);
-  const Case scene = scene_from(text);
-  Model model = make_model(scene);
-  settle_at_once(model, scene);
-  relax(model, scene, 4, false);
-  add_seismic_boundaries(model, scene, std::make_shared<IncomingWave>(), false);
-  const double dt = stable_step(scene, model);
+  const Case case_file = scene_from(text);
+  Model model = make_model(case_file);
+  settle_at_once(model, case_file);
+  relax(model, case_file, 4, false);
+  add_seismic_boundaries(model, case_file, std::make_shared<IncomingWave>(), false);
+  const double dt = stable_step(case_file, model);
   double speed = 0;
   for (int k = 0; k * dt < 1; ++k)
   {

@@ -14,10 +14,10 @@ struct Mixed
   std::vector<Material> materials;
 };
 
-Mixed mixed(const Case& scene)
+Mixed mixed(const Case& case_file)
 {
-  Mixed result{fill(scene).seeds, scene.materials};
-  average_interfaces(scene, result.seeds, result.materials);
+  Mixed result{fill(case_file).seeds, case_file.materials};
+  average_interfaces(case_file, result.seeds, result.materials);
   return result;
 }
 
@@ -32,9 +32,9 @@ double soil(double above)
 TEST_CASE("Particles near a level interface have averaged compliances, the same in all columns", "[stages]")
 {
   const double rockhead = GENERATE(10.0, 10.15, 9.7); // on a grid line, and not
-  const Case scene = scene_from(level_ground(1, 4, 12, rockhead, 20, 0));
-  const Elastic &rock = scene.materials[0].elastic(), &soft = scene.materials[1].elastic();
-  const Mixed ground = mixed(scene);
+  const Case case_file = scene_from(level_ground(1, 4, 12, rockhead, 20, 0));
+  const Elastic &rock = case_file.materials[0].elastic(), &soft = case_file.materials[1].elastic();
+  const Mixed ground = mixed(case_file);
   REQUIRE(ground.materials.size() > 2);
   const std::size_t rows = ground.seeds.size() / 48;
   for (std::size_t k = 0; k < ground.seeds.size(); ++k)
@@ -65,11 +65,11 @@ TEST_CASE("A law that does not admit the softer moduli keeps its own", "[stages]
                "model: von_mises, density: 2200 kg/m3, young_modulus: 250 MPa, poisson_ratio: 0.25, "
                "strength: {peak: 300 kPa, residual: 100 kPa}, softening: {strain: 0.0008}");
   text.replace(text.find("40 MPa"), 6, "2.5 MPa");
-  const Case scene = scene_from(text);
-  const Mixed ground = mixed(scene);
+  const Case case_file = scene_from(text);
+  const Mixed ground = mixed(case_file);
   int kept = 0;
   for (const Material& material : ground.materials)
-    if (material.origin == 0) kept += material.elastic().young == scene.materials[0].elastic().young;
+    if (material.origin == 0) kept += material.elastic().young == case_file.materials[0].elastic().young;
   CHECK(kept > 0);
 }
 
@@ -79,12 +79,12 @@ TEST_CASE("Level ground with averaged interfaces and consistent inertia moves as
   std::string text = level_ground(1, 2, 20, 5, 10, 0);
   text.replace(text.find("per_cell: 2"), 11, "per_cell: 2, interfaces: averaged");
   text.replace(text.find("duration: 1 s"), 13, "duration: 1 s\n  inertia: consistent");
-  const Case scene = scene_from(text);
-  Model model = make_model(scene);
+  const Case case_file = scene_from(text);
+  Model model = make_model(case_file);
   IncomingWave wave;
   wave.horizontal = pulse(0.1, 0.25, 1);
-  add_seismic_boundaries(model, scene, std::make_shared<IncomingWave>(wave), false);
-  const double dt = stable_step(scene, model);
+  add_seismic_boundaries(model, case_file, std::make_shared<IncomingWave>(wave), false);
+  const double dt = stable_step(case_file, model);
   const Particles &p = model.main->particles, &q = model.left->domain->particles;
   double apart = 0, peak = 0;
   for (int k = 0; k * dt < 0.6; ++k)

@@ -15,7 +15,7 @@ namespace
 /// The static stage of `bench`, so slow that it is still at work when a signal comes.
 Arguments slow_static(const Bench& bench, const std::string& out)
 {
-  return bench.static_arguments(out, {"--set", "static.safety=0.1"});
+  return bench.static_arguments(out, {"--set", "static.courant_number=0.1"});
 }
 
 } // namespace

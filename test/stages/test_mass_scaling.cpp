@@ -16,14 +16,14 @@ struct Settled
   double step; ///< s
 };
 
-Settled settled(const Case& scene, bool scaled)
+Settled settled(const Case& case_file, bool scaled)
 {
-  Settled result{make_model(scene), 0};
+  Settled result{make_model(case_file), 0};
   if (scaled) scale_masses(result.model);
-  result.step = stable_step(scene, result.model);
-  relax(result.model, scene, 6, true);
+  result.step = stable_step(case_file, result.model);
+  relax(result.model, case_file, 6, true);
   Domain& main = *result.model.main;
-  main.balance_wanted = true;
+  main.force_balance_wanted = true;
   advance(result.model, 6, result.step);
   return result;
 }
@@ -31,17 +31,17 @@ Settled settled(const Case& scene, bool scaled)
 
 TEST_CASE("scaled masses settle soil on rock to the same state in longer steps", "[stages]")
 {
-  const Case scene = scene_from(level_ground(1, 2, 8, 4, 8, 9.81));
-  const Settled plain = settled(scene, false), scaled = settled(scene, true);
+  const Case case_file = scene_from(level_ground(1, 2, 8, 4, 8, 9.81));
+  const Settled plain = settled(case_file, false), scaled = settled(case_file, true);
   const Domain &a = *plain.model.main, &b = *scaled.model.main;
 
   // The rock's waves are made as slow as the soil's.
-  const double rock = scene.materials[0].elastic().pressure_speed(),
-               soil = scene.materials[1].elastic().pressure_speed();
+  const double rock = case_file.materials[0].elastic().pressure_speed(),
+               soil = case_file.materials[1].elastic().pressure_speed();
   CHECK(scaled.step / plain.step == Approx(rock / soil).epsilon(0.01)); // densities of now differ by strains
 
-  CHECK(a.balance.ratio() < 1e-5);
-  CHECK(b.balance.ratio() < 1e-5);
+  CHECK(a.force_balance.ratio() < 1e-5);
+  CHECK(b.force_balance.ratio() < 1e-5);
   // Two states, each in balance to 1e-5 of the weight, differ by about as much: stress here, settlement
   // below.
   double stress = 0, settlement = 0, stress_scale = 0, settlement_scale = 0;
@@ -59,8 +59,8 @@ TEST_CASE("scaled masses settle soil on rock to the same state in longer steps",
 
 TEST_CASE("the weight of scaled masses stays what it was", "[stages]")
 {
-  const Case scene = scene_from(level_ground(1, 2, 8, 4, 8, 9.81));
-  Model model = make_model(scene);
+  const Case case_file = scene_from(level_ground(1, 2, 8, 4, 8, 9.81));
+  Model model = make_model(case_file);
   scale_masses(model);
   Domain& main = *model.main;
   main.gravity_y = -9.81;

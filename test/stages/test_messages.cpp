@@ -26,15 +26,15 @@ TEST_CASE("the option --check answers on stdout and tells how long the static st
 {
   const Bench bench;
   const Arguments check{bench.path("case.yaml"), "--check"};
-  const std::string statics = answer_of("mpm-static", check, bench / "answer.txt");
-  CHECK_THAT(statics, Contains("particles") && Contains("carried to"));
+  const std::string static_stage = answer_of("mpm-static", check, bench / "answer.txt");
+  CHECK_THAT(static_stage, Contains("particles") && Contains("carried to"));
   CHECK_THAT(answer_of("mpm-seismic", check, bench / "answer.txt"),
              Contains("Arias") && Contains("steps for"));
 
   bench.make_static();
   const auto summary = nlohmann::json::parse(contents(bench / "static/summary.json"));
   const auto steps_after = [&](const std::string& words)
-  { return std::stod(statics.substr(statics.find(words) + words.size())); };
+  { return std::stod(static_stage.substr(static_stage.find(words) + words.size())); };
   const double steps = summary["steps"];
   CHECK(steps_after("at least ") < steps);
   // The usual number is two ramps: settled when waves have crossed the slope some times.
@@ -46,17 +46,18 @@ TEST_CASE("the option --check answers on stdout and tells how long the static st
 TEST_CASE("messages of mpm-static do not name keys that it does not use", "[stages]")
 {
   const Bench bench;
-  const Arguments odd{"--set", "time_step.safety=0.1"};
+  const Arguments odd{"--set", "time_step.courant_number=0.1"};
   const Ending ending = bench.run_static("static", odd);
   REQUIRE(ending.code == 0);
-  CHECK_THAT(ending.said, !Contains("time_step.safety: "));
+  CHECK_THAT(ending.said, !Contains("time_step.courant_number: "));
   CHECK(bench.run_static("static").code == 0); // the same run: it does not depend on that key
   // The pull of 1e5 g throws the ground apart.
   const Ending apart =
       bench.run_static("apart", {"--set", "static.gravity=1e6 m/s2", "--set", "static.ramp=0.01 s"});
   INFO(apart.said);
   CHECK(apart.code == 80);
-  CHECK_THAT(apart.said, Contains("use a smaller static.safety") && !Contains("time_step.safety"));
+  CHECK_THAT(apart.said,
+             Contains("use a smaller static.courant_number") && !Contains("time_step.courant_number"));
 }
 
 TEST_CASE("the log of a seismic run ends with the slide", "[stages]")

@@ -75,9 +75,10 @@ TEST_CASE("a profile, --set and a case that says the same itself are one run", "
 TEST_CASE("the option --check tells the cost, runs and writes nothing, and exits with 0", "[stages]")
 {
   const Bench bench;
-  const Ending statics = bench.run("mpm-static", {bench.path("case.yaml"), "--check"});
-  CHECK(statics.code == 0);
-  CHECK_THAT(statics.said, Contains("particles") && Contains("MB") && Contains("steps") && Contains("c_s"));
+  const Ending static_stage = bench.run("mpm-static", {bench.path("case.yaml"), "--check"});
+  CHECK(static_stage.code == 0);
+  CHECK_THAT(static_stage.said,
+             Contains("particles") && Contains("MB") && Contains("steps") && Contains("c_s"));
   const Ending without = bench.run_seismic("out", {"--check"}); // as the run itself
   CHECK(without.code == 66);
   CHECK_THAT(without.said, Contains("static/final.h5"));
@@ -104,7 +105,7 @@ TEST_CASE("a run tells what it carries of the motion, warns of what it loses, an
     return nlohmann::json::parse(contents(bench / out / "summary.json"));
   };
   const auto usual = summary_of("usual", {}),
-             small = summary_of("small", {"--set", "time_step.safety=0.125"});
+             small = summary_of("small", {"--set", "time_step.courant_number=0.125"});
   const auto waves = [](const nlohmann::json& summary)
   { return summary["resolution"]["materials"]["clay"]["S"]; };
   CHECK(waves(usual)["carried_to"] ==
@@ -112,8 +113,8 @@ TEST_CASE("a run tells what it carries of the motion, warns of what it loses, an
   CHECK(waves(usual).contains("arias_share_above"));
   CHECK(waves(small)["damping_limit"].get<double>() < waves(usual)["damping_limit"].get<double>());
   CHECK(waves(small)["arias_share_above"].get<double>() >= waves(usual)["arias_share_above"].get<double>());
-  CHECK_THAT(usual["warnings"].dump(), !Contains("time_step.safety"));
-  CHECK_THAT(small["warnings"].dump(), Contains("time_step.safety"));
+  CHECK_THAT(usual["warnings"].dump(), !Contains("time_step.courant_number"));
+  CHECK_THAT(small["warnings"].dump(), Contains("time_step.courant_number"));
   const auto coarse = summary_of("coarse", {"--set", "materials.clay.young_modulus=1 MPa"});
   CHECK_THAT(coarse["warnings"].dump(), Contains("Arias"));
 }
@@ -133,7 +134,7 @@ TEST_CASE("a case without gravity starts without a static state and says so", "[
 TEST_CASE("summary.json tells how a run ended, and the log all runs of the folder", "[stages]")
 {
   const Bench bench;
-  const Arguments slowly{"--set", "static.safety=0.1"}; // else it ends before it can be cut short
+  const Arguments slowly{"--set", "static.courant_number=0.1"}; // else it ends before it can be cut short
   terminate(bench, "mpm-static", bench.static_arguments("static", slowly), bench / "static");
   CHECK_THAT(contents(bench / "static/summary.json"),
              Contains("\"exit\": 75") && Contains("\"stage\": \"static\""));

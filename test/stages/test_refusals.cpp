@@ -11,14 +11,14 @@ using Catch::Matchers::Contains;
 TEST_CASE("a wrong command line exits with 64 and says so", "[stages]")
 {
   const Bench bench;
-  const std::string scene = bench.path("case.yaml"), out = bench.path("out");
+  const std::string case_file = bench.path("case.yaml"), out = bench.path("out");
   CHECK(bench.run("mpm-static", {}).code == 64);
-  CHECK(bench.run("mpm-static", {scene, "--out", out, "--sideways"}).code == 64);
-  CHECK(bench.run("mpm-static", {scene, "--out", out, "--threads", "0"}).code == 64);
-  const Ending no_out = bench.run("mpm-static", {scene});
+  CHECK(bench.run("mpm-static", {case_file, "--out", out, "--sideways"}).code == 64);
+  CHECK(bench.run("mpm-static", {case_file, "--out", out, "--threads", "0"}).code == 64);
+  const Ending no_out = bench.run("mpm-static", {case_file});
   CHECK(no_out.code == 64);
   CHECK_THAT(no_out.said, Contains("--out"));
-  const Ending no_state = bench.run("mpm-seismic", {scene, "--out", out});
+  const Ending no_state = bench.run("mpm-seismic", {case_file, "--out", out});
   CHECK(no_state.code == 64);
   CHECK_THAT(no_state.said, Contains("--from"));
   CHECK_FALSE(fs::exists(out));
@@ -55,9 +55,9 @@ TEST_CASE("a bad case exits with 65, names file, line and column of every error,
 TEST_CASE("a bad override exits with 65 and names it", "[stages]")
 {
   const Bench bench;
-  const Ending bad = bench.run_static("out", {"--set", "time_step.safety=0.9"});
+  const Ending bad = bench.run_static("out", {"--set", "time_step.courant_number=0.9"});
   CHECK(bad.code == 65);
-  CHECK_THAT(bad.said, Contains("--set time_step.safety=0.9") && Contains("0.78"));
+  CHECK_THAT(bad.said, Contains("--set time_step.courant_number=0.9") && Contains("0.78"));
   CHECK_FALSE(fs::exists(bench / "out"));
 }
 

@@ -21,7 +21,8 @@ double greatest_plastic_strain(const fs::path& final)
   return greatest;
 }
 
-/// The ledgers of a seismic run: sampled from start to end, of all that there is, closed, and in the summary.
+/// The energy balances of a seismic run: sampled from start to end, of all that there is, closed, and in the
+/// summary.
 void check_ledger(const fs::path& folder, const std::vector<std::string>& groups)
 {
   const h5::File history = open_complete(folder / "history.h5");
@@ -108,7 +109,7 @@ void kill_when_decided(const Bench& bench, const Arguments& arguments, const fs:
 TEST_CASE("a static run that was cut short and resumed ends bit for bit as one that was not", "[stages]")
 {
   const Bench bench;
-  const Arguments slowly{"--set", "static.safety=0.1"}; // else it ends before it can be cut short
+  const Arguments slowly{"--set", "static.courant_number=0.1"}; // else it ends before it can be cut short
   REQUIRE(bench.run_static("static", slowly).code == 0);
   const auto same_state = [&](const std::string& out)
   {

@@ -14,9 +14,9 @@ namespace
 /// in (4, 8).
 struct SlidingBlock
 {
-  Case scene = scene_from(level_ground(1, 2, 20, 4, 6, 9.81));
-  Model model = make_model(scene);
-  Slide slide{model, scene};
+  Case case_file = scene_from(level_ground(1, 2, 20, 4, 6, 9.81));
+  Model model = make_model(case_file);
+  Slide slide{model, case_file};
   History history;
   History::Clock clock = history.add_clock();
 
@@ -121,7 +121,7 @@ TEST_CASE("the greatest velocities are kept with time and place, also across a r
   h5::File file = h5::File::in_memory("slide");
   h5::Group group = file.create_group("slide");
   block.slide.save(group);
-  Slide again(block.model, block.scene);
+  Slide again(block.model, block.case_file);
   again.load(group, 2);
   CHECK(again.summary() == summary);
   CHECK(again.trigger_time() == block.slide.trigger_time());

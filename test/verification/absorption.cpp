@@ -1,9 +1,9 @@
-#include "test/scenes.hpp"
+#include "test/domains.hpp"
 #include "test/verification/cases.hpp"
 #include "test/verification/column.hpp"
 #include "test/verification/dashpot_reflection.hpp"
 
-#include "io/units.hpp"
+#include "io/case/units.hpp"
 
 #include <fmt/format.h>
 
@@ -100,12 +100,12 @@ void put(const Packet& packet, Domain& domain, const Elastic& law, double dt)
 /// the field, which is the particles' own velocity.
 double energy(const Domain& domain)
 {
-  if (!domain.consistent_inertia) return kinetic_energy(domain) + scenes::strain_energy(domain);
+  if (!domain.consistent_inertia) return kinetic_energy(domain) + domains::strain_energy(domain);
   const Particles& p = domain.particles;
   double kinetic = 0;
   for (int k = 0; k < p.size(); ++k)
     kinetic += 0.5 * p.mass[k] * (p.velocity_x[k] * p.velocity_x[k] + p.velocity_y[k] * p.velocity_y[k]);
-  return kinetic + scenes::strain_energy(domain);
+  return kinetic + domains::strain_energy(domain);
 }
 
 /// Share of the packet's energy that the base sends back: what is left at the end, over it and what the base
@@ -114,15 +114,15 @@ double energy(const Domain& domain)
 double reflected(const Packet& packet, const std::filesystem::path& folder, double spacing,
                  const std::string& inertia)
 {
-  const Case scene = load_case(
+  const Case case_file = load_case(
       folder / "case.yaml", {"grid.spacing=" + number_text(spacing) + " m", "seismic.inertia=" + inertia,
                              fmt::format("domain.x=[0 m, {} m]", std::ceil(packet.width)),
                              fmt::format("surfaces.ground.points=[[0 m, {} m]]", std::ceil(packet.height))});
-  Model model = make_model(scene);
-  add_seismic_boundaries(model, scene, std::make_shared<IncomingWave>(), false);
+  Model model = make_model(case_file);
+  add_seismic_boundaries(model, case_file, std::make_shared<IncomingWave>(), false);
   Domain& domain = *model.main;
-  const Elastic& law = scene.materials[0].elastic();
-  const double dt = scene.safety * spacing / law.pressure_speed();
+  const Elastic& law = case_file.materials[0].elastic();
+  const double dt = case_file.courant_number * spacing / law.pressure_speed();
   domain.flip_blend = 0.99; // so that the transfers take little of the packet on its way
   put(packet, domain, law, dt);
   const double way = 2 * packet.y / std::cos(packet.angle); // until its tail has met the base
@@ -130,8 +130,8 @@ double reflected(const Packet& packet, const std::filesystem::path& folder, doub
   double start = 0, work = 0, absorbed = 0, rate = 0;
   for (int k = 0; k < steps; ++k)
   {
-    scenes::run(domain, 1, dt);
-    const double now = domain.ledger.flow[Energy::radiated_base] - work;
+    domains::run(domain, 1, dt);
+    const double now = domain.energy.flow[Energy::radiated_base] - work;
     work += now;
     absorbed += now * std::exp(rate * k * dt);
     if (k == 0) start = energy(domain); // of the field as the grid carries it

@@ -1,6 +1,6 @@
 #include "test/verification/column.hpp"
 
-#include "io/units.hpp"
+#include "io/case/units.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -12,9 +12,9 @@ Case scene_at(const std::filesystem::path& folder, double spacing)
   return load_case(folder / "case.yaml", {"grid.spacing=" + number_text(spacing) + " m"});
 }
 
-std::shared_ptr<IncomingWave> wave_of(const Case& scene)
+std::shared_ptr<IncomingWave> wave_of(const Case& case_file)
 {
-  const MotionSettings& settings = scene.seismic.motion;
+  const MotionSettings& settings = case_file.seismic.motion;
   const auto load = [&](const std::optional<MotionSource>& source) -> std::optional<GroundMotion>
   {
     if (!source) return std::nullopt;
@@ -28,30 +28,30 @@ std::shared_ptr<IncomingWave> wave_of(const Case& scene)
   return wave;
 }
 
-double step_dividing(double every, const Case& scene, const Domain& domain)
+double step_dividing(double every, const Case& case_file, const Domain& domain)
 {
-  const double most = scene.safety * scene.grid.spacing / greatest_wave_speed(domain);
+  const double most = case_file.courant_number * case_file.grid.spacing / greatest_wave_speed(domain);
   return every / std::ceil(every / most);
 }
 
-Trace shake_column(const Case& scene, std::shared_ptr<const IncomingWave> wave, double every)
+Trace shake_column(const Case& case_file, std::shared_ptr<const IncomingWave> wave, double every)
 {
-  Model model = make_model(scene);
-  add_seismic_boundaries(model, scene, wave, false);
+  Model model = make_model(case_file);
+  add_seismic_boundaries(model, case_file, wave, false);
   FreeFieldColumn& column = *model.left;
-  column.domain->flip_blend = scene.seismic.flip_blend;
+  column.domain->flip_blend = case_file.seismic.flip_blend;
   // A gauge on the ground surface; the outermost particle sits half a particle distance below it.
-  column.domain->tracers.push_back({0.5 * scene.grid.spacing, scene.ground_height(0), 0, 0, 0, 0});
-  const double dt = step_dividing(every, scene, *column.domain);
-  const long stride = std::lround(every / dt), samples = std::lround(scene.seismic.duration / every);
+  column.domain->gauges.push_back({0.5 * case_file.grid.spacing, case_file.ground_height(0), 0, 0, 0, 0});
+  const double dt = step_dividing(every, case_file, *column.domain);
+  const long stride = std::lround(every / dt), samples = std::lround(case_file.seismic.duration / every);
   Trace trace;
   trace.every = every;
   for (long k = 0; k < samples * stride; ++k)
   {
     column.advance(k * dt, dt);
     if ((k + 1) % stride != 0) continue;
-    trace.x.push_back(column.domain->tracers[0].velocity_x);
-    trace.y.push_back(column.domain->tracers[0].velocity_y);
+    trace.x.push_back(column.domain->gauges[0].velocity_x);
+    trace.y.push_back(column.domain->gauges[0].velocity_y);
   }
   return trace;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Free-field columns of a scene, settled or shaken, for cases that one dimension answers.
+// Free-field columns of a case, settled or shaken, for cases that one dimension answers.
 
 #include "solver/stages/model.hpp"
 
@@ -12,10 +12,10 @@ namespace mpm::verification
 Case scene_at(const std::filesystem::path& folder, double spacing);
 
 /// The wave that the case's seismic.motion names, as the program would make it.
-std::shared_ptr<IncomingWave> wave_of(const Case& scene);
+std::shared_ptr<IncomingWave> wave_of(const Case& case_file);
 
 /// A step within the case's Courant number that divides `every` (s).
-double step_dividing(double every, const Case& scene, const Domain& domain);
+double step_dividing(double every, const Case& case_file, const Domain& domain);
 
 /// Velocity of the ground surface; entry k is at (k + 1) every.
 struct Trace
@@ -24,8 +24,8 @@ struct Trace
   std::vector<double> x, y; ///< m/s
 };
 
-/// Shakes the scene's left column alone, from stress-free ground, and samples its surface.
-Trace shake_column(const Case& scene, std::shared_ptr<const IncomingWave> wave, double every);
+/// Shakes the case's left column alone, from stress-free ground, and samples its surface.
+Trace shake_column(const Case& case_file, std::shared_ptr<const IncomingWave> wave, double every);
 
 /// Fourier transform of samples, the first at `start` s.
 std::complex<double> transform(const std::vector<double>& samples, double every, double start,

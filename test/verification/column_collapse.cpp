@@ -1,7 +1,7 @@
 #include "test/verification/cases.hpp"
 
 #include "boundaries/mirrored_wall.hpp"
-#include "io/units.hpp"
+#include "io/case/units.hpp"
 #include "solver/mpm/step.hpp"
 #include "solver/stages/model.hpp"
 
@@ -45,16 +45,16 @@ Deposit deposit_of(const Domain& domain)
 
 Deposit collapse(const std::filesystem::path& folder, double h, double aspect)
 {
-  const Case scene =
+  const Case case_file =
       load_case(folder / "case.yaml", {"grid.spacing=" + number_text(h) + " m",
                                        "surfaces.top.points[0][1]=" + number_text(aspect) + " m"});
-  Model model = make_model(scene);
+  Model model = make_model(case_file);
   Domain& domain = *model.main;
   domain.boundaries.push_back(std::make_unique<MirroredWall>(Wall{Direction::y, 0, 1, false}));
   domain.boundaries.push_back(std::make_unique<MirroredWall>(Wall{Direction::x, 0, 1, true}));
   rebuild(domain);
-  const Elastic& sand = scene.materials[0].elastic();
-  const double gravity = scene.statics.gravity, lateral = sand.poisson / (1 - sand.poisson);
+  const Elastic& sand = case_file.materials[0].elastic();
+  const double gravity = case_file.static_stage.gravity, lateral = sand.poisson / (1 - sand.poisson);
   domain.gravity_y = -gravity;
   Particles& p = domain.particles;
   for (int k = 0; k < p.size(); ++k)
@@ -62,7 +62,7 @@ Deposit collapse(const std::filesystem::path& folder, double h, double aspect)
     p.stress_yy[k] = -sand.density * gravity * (aspect - p.y[k]);
     p.stress_xx[k] = p.stress_zz[k] = lateral * p.stress_yy[k];
   }
-  const double dt = scene.safety * h / sand.pressure_speed(),
+  const double dt = case_file.courant_number * h / sand.pressure_speed(),
                end = 1 + duration * std::sqrt(aspect / gravity);
   for (long k = 0; k * dt < end; ++k)
   {

@@ -1,7 +1,7 @@
 #include "test/verification/cases.hpp"
 
 #include "boundaries/mirrored_wall.hpp"
-#include "io/units.hpp"
+#include "io/case/units.hpp"
 #include "solver/mpm/step.hpp"
 #include "solver/stages/model.hpp"
 
@@ -40,17 +40,18 @@ std::vector<double> depths(const Domain& domain, double bin, std::size_t count)
 
 Findings run_dam_break(const std::filesystem::path& folder, double h)
 {
-  const Case scene = load_case(folder / "case.yaml", {"grid.spacing=" + number_text(h) + " m"});
-  Model model = make_model(scene);
+  const Case case_file = load_case(folder / "case.yaml", {"grid.spacing=" + number_text(h) + " m"});
+  Model model = make_model(case_file);
   Domain& domain = *model.main;
   domain.boundaries.push_back(std::make_unique<MirroredWall>(Wall{Direction::y, 0, 1, true}));
   domain.boundaries.push_back(std::make_unique<MirroredWall>(Wall{Direction::x, 0, 1, true}));
   rebuild(domain);
-  const Elastic& water = scene.materials[0].elastic();
-  const double gravity = scene.statics.gravity, wave = std::sqrt(gravity * depth);
+  const Elastic& water = case_file.materials[0].elastic();
+  const double gravity = case_file.static_stage.gravity, wave = std::sqrt(gravity * depth);
   domain.gravity_y = -gravity;
   hold_at_rest(domain, water.density, gravity);
-  const double dt = scene.safety * h / water.pressure_speed(), end = duration * std::sqrt(depth / gravity);
+  const double dt = case_file.courant_number * h / water.pressure_speed(),
+               end = duration * std::sqrt(depth / gravity);
   const long steps = std::lround(end / dt);
   Curve front{"front", "time / sqrt(H / g)", "way of the front / H", {}, {}, {}};
   double fastest = 0;

@@ -70,13 +70,14 @@ double damping_ratio(const std::vector<double>& samples, const std::vector<doubl
 
 Findings run_free_vibration(const std::filesystem::path& folder, double spacing)
 {
-  const Case scene = scene_at(folder, spacing);
-  const double H = scene.ground_height(0), period = read_table(folder / "reference.csv").at("period").at(0);
-  Model model = make_model(scene);
-  add_static_boundaries(model, scene);
+  const Case case_file = scene_at(folder, spacing);
+  const double H = case_file.ground_height(0),
+               period = read_table(folder / "reference.csv").at("period").at(0);
+  Model model = make_model(case_file);
+  add_static_boundaries(model, case_file);
   Domain& column = *model.left->domain;
   start(column, H);
-  const double dt = scene.safety * spacing / greatest_wave_speed(column);
+  const double dt = case_file.courant_number * spacing / greatest_wave_speed(column);
   std::vector<double> samples{amplitude(column, H)};
   Curve curve{"mode 1, last 4 periods", "time (s)", "surface velocity (m/s)", {}, {}, {}};
   for (int k = 0; k * dt < (periods + 0.3) * period; ++k)
@@ -92,7 +93,7 @@ Findings run_free_vibration(const std::filesystem::path& folder, double spacing)
   const std::vector<double> zeros = crossings(samples);
   const double found = 2 * dt * (zeros.back() - zeros.front()) / static_cast<double>(zeros.size() - 1);
   // xi = a (k h)^3 / (2 C_w): affine transfers filter the velocity by sqrt(1 - a (k h)^4) a step.
-  const Elastic law = scene.materials[0].elastic();
+  const Elastic law = case_file.materials[0].elastic();
   const double kh = 0.5 * std::numbers::pi * spacing / H, wave_courant = dt * law.shear_speed() / spacing;
   const double damping = 0.0471 * std::pow(kh, 3) / (2 * wave_courant);
   return {{{"period", std::fabs(found / period - 1)},

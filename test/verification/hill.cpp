@@ -1,7 +1,7 @@
 #include "test/verification/cases.hpp"
 #include "test/verification/column.hpp"
 
-#include "io/units.hpp"
+#include "io/case/units.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,17 +19,17 @@ struct History
 };
 
 /// Velocities of the case's gauges by name, from stress-free ground.
-std::map<std::string, History> shake_gauges(const Case& scene, long samples)
+std::map<std::string, History> shake_gauges(const Case& case_file, long samples)
 {
-  Model model = make_model(scene);
-  const auto& gauges = scene.output.gauges.points;
+  Model model = make_model(case_file);
+  const auto& gauges = case_file.output.gauges.points;
   for (const GaugePoint& gauge : gauges)
-    model.main->tracers.push_back(
-        {gauge.x, std::min(gauge.y, scene.ground_height(gauge.x)), gauge.x, gauge.y, 0, 0});
-  add_seismic_boundaries(model, scene, wave_of(scene), false);
+    model.main->gauges.push_back(
+        {gauge.x, std::min(gauge.y, case_file.ground_height(gauge.x)), gauge.x, gauge.y, 0, 0});
+  add_seismic_boundaries(model, case_file, wave_of(case_file), false);
   model.for_each_domain([&](Domain& domain, const std::string&)
-                        { domain.flip_blend = scene.seismic.flip_blend; });
-  const double dt = step_dividing(every, scene, *model.main);
+                        { domain.flip_blend = case_file.seismic.flip_blend; });
+  const double dt = step_dividing(every, case_file, *model.main);
   const long stride = std::lround(every / dt);
   std::map<std::string, History> histories;
   for (long k = 0; k < samples * stride; ++k)
@@ -38,8 +38,8 @@ std::map<std::string, History> shake_gauges(const Case& scene, long samples)
     if ((k + 1) % stride != 0) continue;
     for (std::size_t g = 0; g < gauges.size(); ++g)
     {
-      histories[gauges[g].name].x.push_back(model.main->tracers[g].velocity_x);
-      histories[gauges[g].name].y.push_back(model.main->tracers[g].velocity_y);
+      histories[gauges[g].name].x.push_back(model.main->gauges[g].velocity_x);
+      histories[gauges[g].name].y.push_back(model.main->gauges[g].velocity_y);
     }
   }
   return histories;
@@ -79,11 +79,11 @@ double greatest_relative_difference(const Curve& curve)
 }
 
 /// The case of a folder against its reference.
-Findings compare(const Case& scene, const std::filesystem::path& folder)
+Findings compare(const Case& case_file, const std::filesystem::path& folder)
 {
   const auto table = read_table(folder / "reference.csv");
   const std::vector<double>& time = table.at("time");
-  const auto found = shake_gauges(scene, static_cast<long>(time.size()));
+  const auto found = shake_gauges(case_file, static_cast<long>(time.size()));
   Findings findings;
   double surface = 0, within = 0;
   for (const auto& [name, history] : found)

@@ -1,7 +1,7 @@
 #include "test/verification/infinite_slope.hpp"
 
 #include "boundaries/mirrored_wall.hpp"
-#include "test/scenes.hpp"
+#include "test/domains.hpp"
 
 #include <numbers>
 
@@ -41,10 +41,10 @@ Slide slide(const InfiniteSlope& slope)
   const double h = slope.spacing, rock = h * slope.rock_cells, zone = rock + h * slope.zone_cells,
                top = zone + slope.block;
   Elastic stiff = slope.law;
-  Domain domain = scenes::make_domain({{stiff, {0, 0, h, rock}, h / 2},
-                                       {slope.law, {0, rock, h, h * slope.zone_cells}, h / 2},
-                                       {stiff, {0, zone, h, slope.block}, h / 2}},
-                                      h);
+  Domain domain = domains::make_domain({{stiff, {0, 0, h, rock}, h / 2},
+                                        {slope.law, {0, rock, h, h * slope.zone_cells}, h / 2},
+                                        {stiff, {0, zone, h, slope.block}, h / 2}},
+                                       h);
   domain.grid.wrapped = true;
   domain.boundaries.push_back(std::make_unique<MirroredWall>(Wall{Direction::y, 0, 1, false}));
   sort_particles(domain);
@@ -76,10 +76,10 @@ Slide slide_finite(const InfiniteSlope& slope)
   const double h = slope.spacing, sole = h * slope.rock_cells, zone = sole + h * slope.zone_cells;
   const double across = behind + length + ahead;
   Elastic stiff = slope.law;
-  Domain domain = scenes::make_domain({{stiff, {0, 0, across, sole}, h / 2},
-                                       {slope.law, {0, sole, across, zone - sole}, h / 2},
-                                       {stiff, {behind, zone, length, low}, h / 2}},
-                                      h);
+  Domain domain = domains::make_domain({{stiff, {0, 0, across, sole}, h / 2},
+                                        {slope.law, {0, sole, across, zone - sole}, h / 2},
+                                        {stiff, {behind, zone, length, low}, h / 2}},
+                                       h);
   domain.boundaries.push_back(std::make_unique<MirroredWall>(Wall{Direction::y, 0, 1, false}));
   domain.boundaries.push_back(std::make_unique<MirroredWall>(Wall{Direction::x, 0, 1, true}));
   const int last = static_cast<int>(std::lround(across / h));

@@ -1,7 +1,7 @@
 #include "test/verification/cases.hpp"
 
 #include "solver/mpm/spline.hpp"
-#include "test/scenes.hpp"
+#include "test/domains.hpp"
 
 namespace mpm::verification
 {
@@ -13,7 +13,7 @@ constexpr int trials = 10000;
 /// the cell.
 double slope_error(double h)
 {
-  scenes::Random random(12);
+  domains::Random random(12);
   const double d = 0.02;
   double worst = 0;
   for (int trial = 0; trial < trials; ++trial)
@@ -51,7 +51,7 @@ Curve shape(double h)
 
 Findings run_kernel(const std::filesystem::path&, double h)
 {
-  scenes::Random random(11);
+  domains::Random random(11);
   Findings found;
   double unity = 0, place = 0, moment = 0, no_slope = 0, slope_place = 0;
   for (int trial = 0; trial < trials; ++trial)

@@ -1,6 +1,6 @@
 #include "test/verification/ladder.hpp"
 
-#include "io/yaml_checker.hpp"
+#include "io/case/yaml_checker.hpp"
 
 #include <chrono>
 #include <cmath>

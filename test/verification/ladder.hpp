@@ -2,7 +2,7 @@
 // The verification ladder: cases with closed forms, run at growing resolution against stated bounds.
 //
 // A case is a folder cases/verification/NAME (README.md with the closed form, ladder.yaml with resolutions,
-// norms and bounds, scene and reference values) and a function that runs it at one resolution, named in
+// norms and bounds, case and reference values) and a function that runs it at one resolution, named in
 // cases.cpp.
 
 #include <filesystem>

@@ -1,5 +1,5 @@
+#include "test/domains.hpp"
 #include "test/materials/point.hpp"
-#include "test/scenes.hpp"
 #include "test/verification/cases.hpp"
 
 #include <numbers>
@@ -8,10 +8,10 @@ namespace mpm::verification
 {
 namespace
 {
+using domains::mohr_coulomb;
 using point::hold_yy;
 using point::Point;
 using point::update;
-using scenes::mohr_coulomb;
 
 constexpr double pressure = 100e3;             // Pa, of the confinement
 constexpr double angle = std::numbers::pi / 6; // 30 degrees

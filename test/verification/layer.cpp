@@ -1,7 +1,7 @@
 #include "test/verification/cases.hpp"
 #include "test/verification/column.hpp"
 
-#include "io/units.hpp"
+#include "io/case/units.hpp"
 
 #include <cmath>
 
@@ -11,13 +11,13 @@ namespace
 {
 constexpr double every = 0.01; // s; what the pulse holds above 90 Hz folds back below 10 Hz, and is nothing
 
-/// Amplification |surface / outcrop| of the scene's column in one direction at the reference's frequencies;
+/// Amplification |surface / outcrop| of the case's column in one direction at the reference's frequencies;
 /// the error is the greatest difference over the greatest value.
-Findings amplify(const Case& scene, const std::filesystem::path& folder)
+Findings amplify(const Case& case_file, const std::filesystem::path& folder)
 {
   const auto reference = read_table(folder / "reference.csv");
-  const auto wave = wave_of(scene);
-  const Trace trace = shake_column(scene, wave, every);
+  const auto wave = wave_of(case_file);
+  const Trace trace = shake_column(case_file, wave, every);
   const bool shear = wave->horizontal.has_value();
   const std::vector<double>& surface = shear ? trace.x : trace.y;
   std::vector<double> outcrop;
@@ -62,16 +62,17 @@ Findings run_layer_consistent(const std::filesystem::path& folder, double spacin
 
 Findings run_layer_courant(const std::filesystem::path& folder, double courant)
 {
-  const Case scene = load_case(folder / "../layer/case.yaml", {"time_step.safety=" + number_text(courant)});
-  return amplify(scene, folder / "../layer");
+  const Case case_file =
+      load_case(folder / "../layer/case.yaml", {"time_step.courant_number=" + number_text(courant)});
+  return amplify(case_file, folder / "../layer");
 }
 
 Findings run_layer_flip(const std::filesystem::path& folder, double share)
 {
   const std::string flip = "seismic.flip_blend=" + number_text(share);
   Findings usual = amplify(load_case(folder / "../layer/case.yaml", {flip}), folder / "../layer");
-  const Findings small =
-      amplify(load_case(folder / "../layer/case.yaml", {flip, "time_step.safety=0.1"}), folder / "../layer");
+  const Findings small = amplify(
+      load_case(folder / "../layer/case.yaml", {flip, "time_step.courant_number=0.1"}), folder / "../layer");
   usual.errors["small steps"] = small.errors.at("amplification");
   return usual;
 }

@@ -15,16 +15,16 @@ struct Difference
 
 /// Greatest difference between any particle of the model and its row of the left column, over a run; surface
 /// velocities of both in `curve`.
-Difference compare(const Case& scene, Curve& curve)
+Difference compare(const Case& case_file, Curve& curve)
 {
-  Model model = make_model(scene);
-  if (scene.statics.gravity > 0)
+  Model model = make_model(case_file);
+  if (case_file.static_stage.gravity > 0)
   {
-    test::settle_at_once(model, scene);
-    test::relax(model, scene, 2, false);
+    test::settle_at_once(model, case_file);
+    test::relax(model, case_file, 2, false);
   }
-  add_seismic_boundaries(model, scene, wave_of(scene), false);
-  const double dt = test::stable_step(scene, model);
+  add_seismic_boundaries(model, case_file, wave_of(case_file), false);
+  const double dt = test::stable_step(case_file, model);
   const Particles &p = model.main->particles, &q = model.left->domain->particles;
   std::vector<int> row(p.size());
   for (int id = 0; id < p.size(); ++id) row[id] = model.left->row_near(p.reference_y[model.main->place[id]]);
@@ -33,11 +33,11 @@ Difference compare(const Case& scene, Curve& curve)
   for (int id = 0; id < p.size(); ++id)
   {
     const auto off = [&](int i)
-    { return std::fabs(p.reference_x[model.main->place[i]] - 0.5 * scene.domain.width()); };
+    { return std::fabs(p.reference_x[model.main->place[i]] - 0.5 * case_file.domain.width()); };
     if (row[id] == top && (row[middle] != top || off(id) < off(middle))) middle = id;
   }
   Difference worst;
-  for (int k = 0; k * dt < scene.seismic.duration; ++k)
+  for (int k = 0; k * dt < case_file.seismic.duration; ++k)
   {
     advance(model, k * dt, dt);
     if (k % 20 != 0) continue;
@@ -61,11 +61,11 @@ Findings run_level_site(const std::filesystem::path& folder, double spacing)
   Findings found;
   for (const bool gravity : {false, true})
   {
-    const Case scene =
+    const Case case_file =
         load_case(folder / "case.yaml", {"grid.spacing=" + std::to_string(spacing) + " m",
                                          gravity ? "static.gravity=9.81 m/s2" : "static.gravity=0 m/s2"});
     Curve curve{gravity ? "surface, with gravity" : "surface", "time (s)", "velocity (m/s)", {}, {}, {}};
-    const Difference d = compare(scene, curve);
+    const Difference d = compare(case_file, curve);
     if (d.greatest < 0.3) throw std::runtime_error("level_site: the ground was not shaken");
     found.errors[gravity ? "with gravity" : "without gravity"] = d.velocity / d.greatest;
     found.curves.push_back(curve);

@@ -1,7 +1,7 @@
 #include "test/verification/cases.hpp"
 #include "test/verification/column.hpp"
 
-#include "io/units.hpp"
+#include "io/case/units.hpp"
 #include "solver/mpm/spline.hpp"
 
 #include <cmath>
@@ -63,15 +63,15 @@ double peak(const History& a)
   return greatest;
 }
 
-std::vector<History> load_surface(const Case& scene, const std::vector<GaugePoint>& gauges)
+std::vector<History> load_surface(const Case& case_file, const std::vector<GaugePoint>& gauges)
 {
-  Model model = make_model(scene);
+  Model model = make_model(case_file);
   for (const GaugePoint& gauge : gauges)
-    model.main->tracers.push_back({gauge.x, gauge.y, gauge.x, gauge.y, 0, 0});
-  add_seismic_boundaries(model, scene, std::make_shared<IncomingWave>(), false);
-  model.main->boundaries.push_back(std::make_unique<SurfaceLoad>(scene.ground_height(0)));
-  const double dt = step_dividing(every, scene, *model.main);
-  const long stride = std::lround(every / dt), samples = std::lround(scene.seismic.duration / every);
+    model.main->gauges.push_back({gauge.x, gauge.y, gauge.x, gauge.y, 0, 0});
+  add_seismic_boundaries(model, case_file, std::make_shared<IncomingWave>(), false);
+  model.main->boundaries.push_back(std::make_unique<SurfaceLoad>(case_file.ground_height(0)));
+  const double dt = step_dividing(every, case_file, *model.main);
+  const long stride = std::lround(every / dt), samples = std::lround(case_file.seismic.duration / every);
   std::vector<History> histories(gauges.size());
   for (long k = 0; k < samples * stride; ++k)
   {
@@ -79,8 +79,8 @@ std::vector<History> load_surface(const Case& scene, const std::vector<GaugePoin
     if ((k + 1) % stride != 0) continue;
     for (std::size_t g = 0; g < gauges.size(); ++g)
     {
-      histories[g].x.push_back(model.main->tracers[g].velocity_x);
-      histories[g].y.push_back(model.main->tracers[g].velocity_y);
+      histories[g].x.push_back(model.main->gauges[g].velocity_x);
+      histories[g].y.push_back(model.main->gauges[g].velocity_y);
     }
   }
   return histories;

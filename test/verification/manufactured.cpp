@@ -1,7 +1,7 @@
 #include "test/verification/cases.hpp"
 
 #include "boundaries/mirrored_wall.hpp"
-#include "test/scenes.hpp"
+#include "test/domains.hpp"
 #include "test/verification/body_force.hpp"
 
 #include <numbers>
@@ -16,7 +16,7 @@ constexpr double end = 0.0125;     // s
 
 Elastic material()
 {
-  return scenes::elastic(1e7, 0.3, 1000);
+  return domains::elastic(1e7, 0.3, 1000);
 }
 
 /// u_x = A sin(pi X) sin(c pi t), u_y = A sin(pi Y) sin(c pi t + pi), c = sqrt(E / rho), on the unit square.
@@ -71,7 +71,7 @@ struct Solution
 /// The square between slipping walls at t = 0, positions and stresses half a step ahead of the velocities.
 Domain start(const Solution& exact, double h, double dt)
 {
-  Domain domain = scenes::make_domain({{material(), {0, 0, 1, 1}, h / 3}}, h);
+  Domain domain = domains::make_domain({{material(), {0, 0, 1, 1}, h / 3}}, h);
   Particles& p = domain.particles;
   const double t = 0.5 * dt;
   for (int k = 0; k < p.size(); ++k)
@@ -120,7 +120,7 @@ Findings move(const Solution& exact, double h, bool consistent, const std::strin
   const double dt = end / steps;
   Domain domain = start(exact, h, dt);
   domain.consistent_inertia = consistent;
-  scenes::run(domain, steps, dt);
+  domains::run(domain, steps, dt);
   const Particles& p = domain.particles;
   Curve speed{"velocity along the row nearest to Y = 0.25", "X (m)", "v_x (m/s)", {}, {}, {}};
   Curve stress{"stress along the row nearest to Y = 0.25", "X (m)", "sigma_xx (Pa)", {}, {}, {}};

@@ -2,7 +2,7 @@
 
 #include "boundaries/mirrored_wall.hpp"
 #include "solver/mpm/spline.hpp"
-#include "test/scenes.hpp"
+#include "test/domains.hpp"
 
 #include <map>
 
@@ -96,7 +96,7 @@ Nodes with_images(const Domain& domain, const std::vector<Wall>& walls)
 /// greatest value, over the nodes on the walls, inside, and up to two lines beyond.
 double difference(double h, const std::vector<Wall>& walls, int to_x, int to_y)
 {
-  Domain domain = scenes::random_corner(h, to_x, to_y);
+  Domain domain = domains::random_corner(h, to_x, to_y);
   for (const Wall& wall : walls) domain.boundaries.push_back(std::make_unique<MirroredWall>(wall));
   sort_particles(domain);
   particles_to_grid(domain, 1e-3);
@@ -134,7 +134,7 @@ double difference(double h, const std::vector<Wall>& walls, int to_x, int to_y)
 
 Findings run_mirrored_wall(const std::filesystem::path&, double h)
 {
-  const scenes::Threads one(1);
+  const domains::Threads one(1);
   double slip = 0, stick = 0, corner = 0;
   for (const int inward : {1, -1})
   {

@@ -8,15 +8,15 @@ namespace mpm::verification
 namespace
 {
 /// Gravity grows smoothly, then the column settles under local damping.
-void settle(Model& model, const Case& scene)
+void settle(Model& model, const Case& case_file)
 {
-  add_static_boundaries(model, scene);
+  add_static_boundaries(model, case_file);
   Domain& column = *model.left->domain;
-  const double dt = scene.safety * scene.grid.spacing / greatest_wave_speed(column);
-  for (int k = 0; k * dt < scene.statics.until.at_most; ++k)
+  const double dt = case_file.courant_number * case_file.grid.spacing / greatest_wave_speed(column);
+  for (int k = 0; k * dt < case_file.static_stage.until.at_most; ++k)
   {
-    const double s = std::min(1.0, k * dt / scene.statics.ramp);
-    column.gravity_y = -scene.statics.gravity * s * s * s * (10 + s * (6 * s - 15));
+    const double s = std::min(1.0, k * dt / case_file.static_stage.ramp);
+    column.gravity_y = -case_file.static_stage.gravity * s * s * s * (10 + s * (6 * s - 15));
     model.left->advance(k * dt, dt);
   }
 }
@@ -31,14 +31,14 @@ double interpolate(const std::vector<double>& x, const std::vector<double>& y, d
 
 Findings run_self_weight(const std::filesystem::path& folder, double spacing)
 {
-  const Case scene = scene_at(folder, spacing);
+  const Case case_file = scene_at(folder, spacing);
   const auto reference = read_table(folder / "reference.csv");
   const std::vector<double>&height = reference.at("height"), &stress = reference.at("stress_yy"),
         &settlement = reference.at("settlement");
-  Model model = make_model(scene);
-  settle(model, scene);
+  Model model = make_model(case_file);
+  settle(model, case_file);
   const Particles& p = model.left->domain->particles;
-  const double poisson = scene.materials[0].elastic().poisson;
+  const double poisson = case_file.materials[0].elastic().poisson;
   Curve vertical{"vertical stress", "height (m)", "stress (Pa)", {}, {}, {}};
   Curve sunk{"settlement", "height (m)", "settlement (m)", {}, {}, {}};
   double stress_error = 0, settlement_error = 0, lateral_error = 0;

@@ -1,6 +1,6 @@
 #include "test/verification/shear_band.hpp"
 
-#include "test/scenes.hpp"
+#include "test/domains.hpp"
 #include "test/verification/cases.hpp"
 
 #include <numbers>
@@ -71,7 +71,7 @@ void check(VonMises& law, double spacing)
 /// Table 1's soil, which softens over 0.2 m.
 VonMises soil()
 {
-  VonMises law = scenes::von_mises(70e3, 39e3, NAN, 40e6, 0.35);
+  VonMises law = domains::von_mises(70e3, 39e3, NAN, 40e6, 0.35);
   law.softening_displacement = 0.2;
   return law;
 }
@@ -84,12 +84,12 @@ BandEnergy shear_band(VonMises law, double degrees, BandPlace place, double spac
   const double angle = degrees * std::numbers::pi / 180, cosine = std::cos(angle), sine = std::sin(angle);
   const int cells = cells_across(spacing);
   const double width = spacing * (cells + (place == BandPlace::within_cells ? 1 : 0));
-  Domain domain = scenes::make_domain({{law, {0, 0, width, width}, spacing / 2}}, spacing);
+  Domain domain = domains::make_domain({{law, {0, 0, width, width}, spacing / 2}}, spacing);
   domain.average_volume = average_volume;
   domain.boundaries.push_back(std::make_unique<Grip>(cosine, sine, width, speed * spacing));
   sort_particles(domain);
   const double dt = 0.5 * spacing / law.pressure_speed();
-  scenes::run(domain, static_cast<int>(std::lround(slip / (speed * spacing) / dt)), dt);
+  domains::run(domain, static_cast<int>(std::lround(slip / (speed * spacing) / dt)), dt);
 
   const double length = 0.25 * cells * spacing;
   BandEnergy result{};

@@ -42,14 +42,14 @@ double trigger(const std::vector<double>& time, const std::vector<double>& slip)
 Findings run_sliding_block(const std::filesystem::path& folder, double spacing)
 {
   const auto table = read_table(folder / "reference.csv");
-  const Case scene = scene_at(folder, spacing);
-  Model model = make_model(scene);
-  add_static_boundaries(model, scene);
+  const Case case_file = scene_at(folder, spacing);
+  Model model = make_model(case_file);
+  add_static_boundaries(model, case_file);
   FreeFieldColumn& column = *model.left;
   Domain& domain = *column.domain;
-  const double dt = step_dividing(every, scene, domain);
+  const double dt = step_dividing(every, case_file, domain);
   const long stride = std::lround(every / dt);
-  const double gravity = scene.statics.gravity;
+  const double gravity = case_file.static_stage.gravity;
   // The slope at rest: stress along it from its weight, and no stress across, which the clay's strength does
   // not feel.
   long k = 0;

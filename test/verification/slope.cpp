@@ -1,7 +1,7 @@
 #include "test/verification/cases.hpp"
 #include "test/verification/strength_reduction.hpp"
 
-#include "io/units.hpp"
+#include "io/case/units.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -29,9 +29,9 @@ void weaken_soil(Domain& domain, const MohrCoulomb& full, double factor)
 /// Factor of safety of one of the slopes of the folder.
 Failure factor_of_safety(const std::filesystem::path& path, double spacing, const std::string& averaged)
 {
-  const Case scene =
+  const Case case_file =
       load_case(path, {"grid.spacing=" + number_text(spacing) + " m", "grid.volume_average=" + averaged});
-  const Law full = scene.materials[0].law;
+  const Law full = case_file.materials[0].law;
   const auto weaken = [&](Domain& domain, double factor)
   {
     if (const auto* clay = std::get_if<VonMises>(&full))
@@ -39,7 +39,7 @@ Failure factor_of_safety(const std::filesystem::path& path, double spacing, cons
     else
       weaken_soil(domain, std::get<MohrCoulomb>(full), factor);
   };
-  Failure found = find_failure(scene, {1.2, 1.8, 0.02, height, 0.01, 3, weaken});
+  Failure found = find_failure(case_file, {1.2, 1.8, 0.02, height, 0.01, 3, weaken});
   found.curve.name = path.stem().string() + ", volume change: " + averaged;
   found.curve.x_label = "factor on the strength";
   return found;

@@ -30,12 +30,12 @@ struct Settled
   double gravity, dt;
 };
 
-Settled settle(const Case& scene)
+Settled settle(const Case& case_file)
 {
-  Settled ground{make_model(scene), {}, scene.statics.gravity, 0};
-  add_static_boundaries(ground.model, scene);
+  Settled ground{make_model(case_file), {}, case_file.static_stage.gravity, 0};
+  add_static_boundaries(ground.model, case_file);
   Domain& domain = *ground.model.main;
-  ground.dt = scene.safety * scene.grid.spacing / greatest_wave_speed(domain);
+  ground.dt = case_file.courant_number * case_file.grid.spacing / greatest_wave_speed(domain);
   domain.plastic = false;
   run(domain, ground.gravity, 0.5 * elastic_time, elastic_time, ground.dt);
   domain.plastic = true;
@@ -64,9 +64,9 @@ double displacement(Settled& ground, double duration)
 }
 } // namespace
 
-Failure find_failure(const Case& scene, const StrengthReduction& reduction)
+Failure find_failure(const Case& case_file, const StrengthReduction& reduction)
 {
-  Settled ground = settle(scene);
+  Settled ground = settle(case_file);
   Failure found{{"displacement", "trial", "displacement / height", {}, {}, {}}, 0};
   double stands = reduction.stands, falls = reduction.falls;
   while (falls - stands > reduction.tolerance)

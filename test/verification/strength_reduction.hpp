@@ -1,6 +1,6 @@
 #pragma once
 
-#include "io/case.hpp"
+#include "io/case/case.hpp"
 #include "solver/mpm/domain.hpp"
 #include "test/verification/ladder.hpp"
 
@@ -26,8 +26,8 @@ struct Failure
   double at;
 };
 
-/// Lets the scene settle elastically under gravity and tries strengths from there, each without damping,
+/// Lets the case settle elastically under gravity and tries strengths from there, each without damping,
 /// which would hold back what fails: it has failed when a point has moved by more than `gone`. The ground has
 /// to be so stiff that yielding alone moves it less.
-Failure find_failure(const Case& scene, const StrengthReduction& reduction);
+Failure find_failure(const Case& case_file, const StrengthReduction& reduction);
 } // namespace mpm::verification

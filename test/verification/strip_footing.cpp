@@ -1,6 +1,6 @@
 #include "test/verification/cases.hpp"
 
-#include "io/units.hpp"
+#include "io/case/units.hpp"
 #include "solver/mpm/step.hpp"
 #include "solver/stages/model.hpp"
 
@@ -57,18 +57,19 @@ private:
 /// Load over s_u B as the footing goes down, by settlement over B.
 Curve press(const std::filesystem::path& folder, double h, const std::string& averaged)
 {
-  const Case scene = load_case(folder / "case.yaml",
-                               {"grid.spacing=" + number_text(h) + " m", "grid.volume_average=" + averaged});
-  Model model = make_model(scene);
-  add_static_boundaries(model, scene);
+  const Case case_file = load_case(
+      folder / "case.yaml", {"grid.spacing=" + number_text(h) + " m", "grid.volume_average=" + averaged});
+  Model model = make_model(case_file);
+  add_static_boundaries(model, case_file);
   Domain& domain = *model.main;
   domain.damping = 0; // it would carry load
   auto owned = std::make_unique<Footing>();
   Footing& footing = *owned;
   domain.boundaries.push_back(std::move(owned));
   rebuild(domain);
-  const auto& clay = std::get<VonMises>(scene.materials[0].law);
-  const double dt = scene.safety * h / clay.pressure_speed(), velocity = speed * clay.shear_speed();
+  const auto& clay = std::get<VonMises>(case_file.materials[0].law);
+  const double dt = case_file.courant_number * h / clay.pressure_speed(),
+               velocity = speed * clay.shear_speed();
   const double strength = clay.peak / std::sqrt(3.0), ramp = 0.05 * final_settlement / velocity;
   const long samples = 60, stride = std::lround(final_settlement / velocity / dt / samples);
   Curve curve{"load, volume change of " + std::string(averaged == "cell" ? "the cell" : "each particle"),

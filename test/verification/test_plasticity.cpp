@@ -1,4 +1,4 @@
-#include "test/scenes.hpp"
+#include "test/domains.hpp"
 #include "test/verification/infinite_slope.hpp"
 
 #include <catch2/catch.hpp>
@@ -11,7 +11,7 @@ namespace
 /// Cells of 1 m; the thickness of eq. 8 is the zone's.
 InfiniteSlope on_zone_of(int cells, double flip_blend)
 {
-  InfiniteSlope slope{scenes::slip_weakening(0.4, 0.1, 0.5, cells)};
+  InfiniteSlope slope{domains::slip_weakening(0.4, 0.1, 0.5, cells)};
   slope.zone_cells = cells;
   slope.flip_blend = flip_blend;
   return slope;

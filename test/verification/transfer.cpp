@@ -1,6 +1,6 @@
 #include "test/verification/cases.hpp"
 
-#include "test/scenes.hpp"
+#include "test/domains.hpp"
 
 namespace mpm::verification
 {
@@ -33,9 +33,9 @@ double greatest(std::initializer_list<double> values)
 
 Findings run_transfer(const std::filesystem::path&, double h)
 {
-  const scenes::Threads one(1);
-  const Elastic law = scenes::elastic();
-  Domain domain = scenes::make_domain({{law, {-6 * h, -5 * h, 12 * h, 11 * h}, 0.5 * h}}, h, 0.5, 21);
+  const domains::Threads one(1);
+  const Elastic law = domains::elastic();
+  Domain domain = domains::make_domain({{law, {-6 * h, -5 * h, 12 * h, 11 * h}, 0.5 * h}}, h, 0.5, 21);
   Particles& p = domain.particles;
   set_affine_field(p);
   const Particles before = p;

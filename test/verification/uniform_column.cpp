@@ -1,4 +1,4 @@
-#include "io/units.hpp"
+#include "io/case/units.hpp"
 #include "test/verification/cases.hpp"
 #include "test/verification/column.hpp"
 
@@ -42,9 +42,9 @@ Findings run_uniform_column(const std::filesystem::path& folder, double spacing)
   Findings findings;
   for (const std::string inertia : {"lumped", "consistent"})
   {
-    const Case scene = load_case(
+    const Case case_file = load_case(
         folder / "case.yaml", {"grid.spacing=" + number_text(spacing) + " m", "seismic.inertia=" + inertia});
-    const Trace trace = shake_column(scene, wave_of(scene), time.at(0));
+    const Trace trace = shake_column(case_file, wave_of(case_file), time.at(0));
     const std::string which = inertia == "lumped" ? "" : ", " + inertia;
     const auto compared =
         [&](const std::string& wave, const std::vector<double>& model, const std::string& column)

@@ -1,7 +1,7 @@
 #include "test/verification/cases.hpp"
 #include "test/verification/strength_reduction.hpp"
 
-#include "io/units.hpp"
+#include "io/case/units.hpp"
 
 #include <cmath>
 
@@ -15,14 +15,15 @@ constexpr double exact = 3.8; // middle of the bounds of limit analysis
 /// rho g H / s_u at failure.
 Failure stability_number(const std::filesystem::path& folder, double spacing, const std::string& averaged)
 {
-  const Case scene = load_case(folder / "case.yaml", {"grid.spacing=" + number_text(spacing) + " m",
-                                                      "grid.volume_average=" + averaged});
+  const Case case_file = load_case(folder / "case.yaml", {"grid.spacing=" + number_text(spacing) + " m",
+                                                          "grid.volume_average=" + averaged});
   const auto weaken = [&](Domain& domain, double number)
   {
     auto& clay = std::get<VonMises>(domain.materials[0].law);
-    clay.peak = clay.residual = std::sqrt(3.0) * clay.density * scene.statics.gravity * height / number;
+    clay.peak = clay.residual =
+        std::sqrt(3.0) * clay.density * case_file.static_stage.gravity * height / number;
   };
-  Failure found = find_failure(scene, {3.5, 4.5, 0.04, height, 0.005, 2, weaken});
+  Failure found = find_failure(case_file, {3.5, 4.5, 0.04, height, 0.005, 2, weaken});
   found.curve.name = "displacement, volume change: " + averaged;
   found.curve.x_label = "rho g H / s_u";
   return found;

@@ -1,7 +1,7 @@
 #include "test/verification/cases.hpp"
 
 #include "boundaries/mirrored_wall.hpp"
-#include "test/scenes.hpp"
+#include "test/domains.hpp"
 #include "test/verification/body_force.hpp"
 
 #include <numbers>
@@ -17,7 +17,7 @@ constexpr double half_width = 1.3; // m, of the block that the ring is part of
 
 Elastic material()
 {
-  return scenes::elastic(1e4, 0.3, 1000);
+  return domains::elastic(1e4, 0.3, 1000);
 }
 
 /// Circles turn rigidly by alpha(R, t) = A (1 - cos(2 pi t / T)) / 2 (1 - 32 (R - 1)^2 + 256 (R - 1)^4) for
@@ -91,8 +91,8 @@ std::array<double, 3> cartesian(const Vortex::Stress& s, double angle)
 /// turn as a whole by what the particles' sum of the body force's moment errs.
 Domain start(double h, double dt)
 {
-  const scenes::Rectangle place{-half_width, -half_width, 2 * half_width, 2 * half_width};
-  Domain domain = scenes::make_domain({{material(), place, h / 3}}, h);
+  const domains::Rectangle place{-half_width, -half_width, 2 * half_width, 2 * half_width};
+  Domain domain = domains::make_domain({{material(), place, h / 3}}, h);
   Particles& p = domain.particles;
   for (int k = 0; k < p.size(); ++k)
   {
@@ -206,13 +206,13 @@ Findings turn(double h, bool consistent, const std::string& suffix)
   const double dt = 0.5 * period / half;
   Domain domain = start(h, dt);
   domain.consistent_inertia = consistent;
-  scenes::run(domain, half, dt);
+  domains::run(domain, half, dt);
   const double late = 0.5 * period + 0.5 * dt;
   Findings found;
   found.curves = profiles(domain, h, late);
   found.errors["position" + suffix] = position_error(domain, late);
   found.errors["stress" + suffix] = stress_error(domain, late);
-  scenes::run(domain, half, dt);
+  domains::run(domain, half, dt);
   found.errors["position after turning back" + suffix] = position_error(domain, period + 0.5 * dt);
   return found;
 }

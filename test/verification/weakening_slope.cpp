@@ -1,4 +1,4 @@
-#include "test/scenes.hpp"
+#include "test/domains.hpp"
 #include "test/verification/cases.hpp"
 #include "test/verification/infinite_slope.hpp"
 
@@ -12,7 +12,7 @@ constexpr double thickness = 2; // m, of the layer
 
 InfiniteSlope slope_at(double spacing, double flip_blend)
 {
-  InfiniteSlope slope{scenes::slip_weakening(0.4, 0.1, 0.5, thickness)};
+  InfiniteSlope slope{domains::slip_weakening(0.4, 0.1, 0.5, thickness)};
   slope.spacing = spacing;
   slope.zone_cells = static_cast<int>(std::lround(thickness / spacing));
   slope.flip_blend = flip_blend;

@@ -13,8 +13,7 @@ namespace Catch::Matchers
 {
 // Of a text, a part of it: before the Contains of version 3, which is for elements of any range.
 template <class Part>
-  requires std::convertible_to<Part, std::string>
-StringContainsMatcher Contains(Part&& part)
+requires std::convertible_to<Part, std::string> StringContainsMatcher Contains(Part&& part)
 {
   return ContainsSubstring(std::string(std::forward<Part>(part)));
 }

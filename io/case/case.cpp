@@ -1,0 +1,135 @@
+#include "io/case/case.hpp"
+
+#include "io/case/sections.hpp"
+#include "io/common/error.hpp"
+#include "io/common/input_file.hpp"
+
+#include <algorithm>
+
+namespace mpm
+{
+namespace
+{
+constexpr std::string_view schema = "seismpm-case/1";
+
+std::string read_file(const std::filesystem::path& path)
+{
+  InputText input = read_input(path, most_of_case);
+  if (!input.problem.empty())
+    throw Error(exit_code::input_missing,
+                path.string() + ": " + input.problem + "; give the path of a case file");
+  return std::move(input.text);
+}
+
+void check_schema(Section& root)
+{
+  const std::string given = root.text("schema");
+  if (!given.empty() && given != schema)
+    root.error("schema", "is '" + given + "'; this program reads '" + std::string(schema) + "'");
+}
+
+GridSettings read_grid(Section grid)
+{
+  GridSettings settings;
+  settings.spacing = grid.number("spacing", Dimension::length, Range::positive());
+  settings.particles_per_cell = grid.integer_or(settings.particles_per_cell, "particles_per_cell", 1, 10);
+  settings.average_volume = grid.choice_or(0, "volume_average", {"none", "cell"}) == 1;
+  settings.interfaces = static_cast<Interfaces>(grid.choice_or(0, "interfaces", {"sharp", "averaged"}));
+  return settings;
+}
+
+Extent read_domain(Section domain, Problems& problems)
+{
+  Extent extent;
+  if (const YamlNode* x = domain.require("x"))
+  {
+    const Point sides = read_point(*x, problems);
+    extent.left = sides.x;
+    extent.right = sides.y;
+    if (sides.x >= sides.y) domain.error("x", "the right side must lie right of the left one");
+  }
+  extent.bottom = domain.number("bottom", Dimension::length);
+  return extent;
+}
+
+double read_safety(Section& section, double fallback)
+{
+  constexpr double stable = 0.78; // METHODS section 7: an isolated particle of the cubic kernel
+  const double courant_number = section.number_or(fallback, "courant_number", Dimension::none,
+                                                  {.lower = 0, .lower_allowed = false, .upper = 1});
+  if (courant_number > stable)
+    section.error("courant_number",
+                  "is above 0.78, where loose particles at the surface become unstable; 0.5 is the "
+                  "default of the seismic stage, 0.7 of the static one");
+  return courant_number;
+}
+
+StaticSettings read_static(Section section)
+{
+  StaticSettings s;
+  s.gravity = section.number_or(s.gravity, "gravity", Dimension::acceleration, Range::not_negative());
+  s.ramp = section.number_or(s.ramp, "ramp", Dimension::time, Range::positive());
+  s.damping = section.number_or(s.damping, "damping", Dimension::none,
+                                {.lower = 0, .upper = 1, .upper_allowed = false});
+  s.courant_number = read_safety(section, s.courant_number);
+  s.mass_scaling = section.choice_or(0, "masses", {"scaled", "physical"}) == 0;
+  Section until = section.optional_section("until");
+  s.until.unbalanced = until.number_or(s.until.unbalanced, "unbalanced", Dimension::none, Range::positive());
+  s.until.kinetic = until.number_or(s.until.kinetic, "kinetic", Dimension::none, Range::positive());
+  const double default_end = std::max(s.until.at_most, 2 * s.ramp);
+  s.until.at_most = until.number_or(default_end, "at_most", Dimension::time, Range::positive());
+  if (s.until.at_most < s.ramp)
+    until.error("at_most", "ends before the ramp does; give more than static.ramp");
+  return s;
+}
+
+void read_parts(Case& case_file, const YamlNode& tree, Problems& problems)
+{
+  const std::filesystem::path folder = case_file.path.parent_path();
+  Section root(&tree, problems);
+  check_schema(root);
+  case_file.name = root.text_or(case_file.path.stem().string(), "name");
+  case_file.grid = read_grid(root.section("grid"));
+  case_file.domain = read_domain(root.section("domain"), problems);
+  case_file.surfaces = read_surfaces(root, folder, problems);
+  case_file.materials = read_materials(root, case_file.grid.spacing, problems);
+  case_file.regions = read_regions(root, case_file.surfaces, case_file.materials, problems);
+  case_file.static_stage = read_static(root.optional_section("static"));
+  case_file.seismic = read_seismic(root, folder, problems);
+  Section time_step = root.optional_section("time_step");
+  case_file.courant_number = read_safety(time_step, case_file.courant_number);
+  case_file.output = read_output(root, case_file.materials, problems);
+}
+/// All that was read, and what was looked at in another way as it stands.
+Settings::Entries resolved(const Case& case_file, const YamlNode& tree, Settings settings)
+{
+  for (const auto& [path, text] : flattened(tree))
+    if (!settings.knows(path)) settings.set(path, text);
+  const SeismicSettings& seismic = case_file.seismic;
+  if (settings.knows("seismic.duration") && seismic.base == BaseKind::compliant && !seismic.spring)
+    settings.set("seismic.base.spring", quantity_text(case_file.longest_period(), Dimension::time));
+  return settings.entries();
+}
+} // namespace
+
+Case load_case(const std::filesystem::path& path, const std::vector<std::string>& overrides,
+               const std::string& profile)
+{
+  Case case_file;
+  case_file.path = path;
+  case_file.text = read_file(path);
+  case_file.profile = profile;
+  case_file.overrides = overrides;
+  Problems problems;
+  YamlNode tree = parse_yaml(case_file.text, path.string(), problems);
+  if (tree.kind == YamlNode::Kind::empty) problems.throw_if_any(); // not YAML: nothing more can be said
+  apply_profile(tree, profile, problems);
+  for (const std::string& text : overrides) apply_override(tree, text, problems);
+  read_parts(case_file, tree, problems);
+  problems.throw_if_any();
+  check_geometry(case_file, tree, problems);
+  problems.throw_if_any();
+  case_file.settings = resolved(case_file, tree, problems.settings);
+  return case_file;
+}
+} // namespace mpm

@@ -1,0 +1,193 @@
+#include "io/case/sections.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mpm
+{
+namespace
+{
+std::string beside(const std::filesystem::path& folder, const std::string& file)
+{
+  return file.empty() ? file : (folder / file).lexically_normal().string();
+}
+
+/// The record of one direction: `built_in` or a map.
+MotionSource read_source(const YamlNode& node, const std::filesystem::path& folder, Problems& problems)
+{
+  MotionSource source;
+  if (node.kind == YamlNode::Kind::scalar)
+  {
+    if (node.text != "built_in")
+      problems.add(node.location, node.path,
+                   "is '" + node.text + "'; must be built_in, or a map as {file: " +
+                       (node.text.empty() ? "records/a.AT2" : node.text) + "}");
+    return source;
+  }
+  Section section(&node, problems);
+  source.record.file = beside(folder, section.text("file"));
+  if (section.given() && !source.record.file.empty())
+    section.resolve("file", std::filesystem::absolute(source.record.file).string());
+  const std::vector<std::string> formats = record_formats();
+  source.record.format = formats[section.choice_or(0, "format", formats)];
+  source.record.dt = section.number_or(NAN, "dt", Dimension::time, Range::positive());
+  source.record.unit = section.text_or("", "unit");
+  if (!source.record.unit.empty() && !is_record_unit(source.record.unit))
+    section.error("unit",
+                  "is '" + source.record.unit + "'; must be a unit of records, as g, gal, m/s2, cm/s or m");
+  const std::vector<std::string> quantities{"acceleration", "velocity", "displacement"};
+  if (section.find("quantity"))
+    source.record.quantity = static_cast<Quantity>(section.choice("quantity", quantities));
+  source.record.origin = section.text_or("", "origin");
+  source.record.component = section.text_or("", "component");
+  source.scale = section.number_or(1, "scale", Dimension::none);
+  return source;
+}
+
+std::optional<MotionSource> read_direction(Section& motion, std::string_view key,
+                                           const std::filesystem::path& folder, Problems& problems)
+{
+  const YamlNode* node = motion.find(key);
+  if (!node) return std::nullopt;
+  return read_source(*node, folder, problems);
+}
+
+RecordedAs read_recorded_as(Section& motion, Problems& problems)
+{
+  const YamlNode* node = motion.require("recorded_as");
+  if (!node) return RecordedAs::outcrop;
+  if (node->kind == YamlNode::Kind::scalar && node->text == "within")
+  {
+    problems.add(node->location, node->path, "'within' is not possible: " + std::string(why_not_within));
+    return RecordedAs::outcrop;
+  }
+  return read_choice(*node, {"outcrop", "upgoing"}, problems) == 1 ? RecordedAs::upgoing
+                                                                   : RecordedAs::outcrop;
+}
+
+/// `never`, `self_driven` or a time.
+void read_end(Section& motion, MotionSettings& settings, Problems& problems)
+{
+  const YamlNode* node = motion.find("end");
+  if (!node) motion.resolve("end", "never");
+  if (!node || node->text == "never") return;
+  if (node->text == "self_driven")
+  {
+    settings.end = MotionEnd::self_driven;
+    return;
+  }
+  if (node->kind == YamlNode::Kind::scalar && parse_quantity(node->text, Dimension::time).problem.empty())
+  {
+    settings.end = MotionEnd::time;
+    settings.end_time = read_number(*node, Dimension::time, Range::positive(), problems);
+    return;
+  }
+  problems.add(node->location, node->path,
+               "must be never, self_driven or a time as '12.5 s'" +
+                   suggestion(node->text, {"never", "self_driven"}));
+}
+
+/// `none`, `auto` or a time.
+SpringTime read_spring(Section& base, BaseKind kind, Problems& problems)
+{
+  const YamlNode* node = base.find("spring");
+  if (!node) base.resolve("spring", "auto"); // of a compliant base: see load_case
+  if (!node || node->text == "auto") return {};
+  if (node->text == "none") return 0;
+  if (node->kind == YamlNode::Kind::scalar && parse_quantity(node->text, Dimension::time).problem.empty())
+  {
+    if (kind == BaseKind::fixed) base.error("spring", "a fixed base has no spring; leave it out");
+    return read_number(*node, Dimension::time, Range::positive(), problems);
+  }
+  problems.add(node->location, node->path,
+               "must be none, auto or a time as '1 s'" + suggestion(node->text, {"none", "auto"}));
+  return {};
+}
+
+constexpr std::string_view with_record = "record";
+
+/// What follows the record in `record` or `record + TIME`, s; NaN: the text is neither.
+double after_record(std::string_view text)
+{
+  text.remove_prefix(with_record.size());
+  const auto skip_blanks = [&] { text.remove_prefix(std::min(text.find_first_not_of(' '), text.size())); };
+  skip_blanks();
+  if (text.empty()) return 0;
+  if (!text.starts_with('+')) return NAN;
+  text.remove_prefix(1);
+  skip_blanks();
+  const Quantified time = parse_quantity(text, Dimension::time);
+  return time.problem.empty() && time.value >= 0 ? time.value : NAN;
+}
+
+void read_duration(Section& section, SeismicSettings& settings, Problems& problems)
+{
+  const YamlNode* node = section.require("duration");
+  if (!node) return;
+  if (node->kind != YamlNode::Kind::scalar || !node->text.starts_with(with_record))
+  {
+    settings.duration = read_number(*node, Dimension::time, Range::positive(), problems);
+    return;
+  }
+  settings.duration = NAN;
+  settings.after_record = after_record(node->text);
+  if (std::isnan(settings.after_record))
+    problems.add(node->location, node->path,
+                 "is '" + node->text +
+                     "'; must be record, record + a time as 'record + 10 s', or a time as '24 s'");
+}
+
+MotionSettings read_motion(Section motion, const std::filesystem::path& folder, Problems& problems)
+{
+  MotionSettings settings;
+  settings.given = motion.given();
+  if (motion.given())
+  {
+    settings.processing.recorded_as = read_recorded_as(motion, problems);
+    settings.horizontal = read_direction(motion, "horizontal", folder, problems);
+    settings.vertical = read_direction(motion, "vertical", folder, problems);
+  }
+  else
+  {
+    motion.resolve("recorded_as", "outcrop");
+    motion.resolve("horizontal", "built_in");
+  }
+  if (!settings.horizontal && !settings.vertical)
+    motion.error("", "has no record; give horizontal, vertical or both (built_in is the program's own)");
+  const std::vector<std::string> baselines{"none", "linear", "quadratic", "cubic"};
+  MotionProcessing& processing = settings.processing;
+  processing.baseline =
+      static_cast<Baseline>(motion.choice_or(static_cast<int>(processing.baseline), "baseline", baselines));
+  processing.taper = motion.number_or(processing.taper, "taper", Dimension::time, Range::not_negative());
+  processing.high_pass =
+      motion.number_or(processing.high_pass, "high_pass", Dimension::frequency, Range::not_negative());
+  read_end(motion, settings, problems);
+  return settings;
+}
+} // namespace
+
+SeismicSettings read_seismic(Section& root, const std::filesystem::path& folder, Problems& problems)
+{
+  SeismicSettings settings;
+  Section section = root.optional_section("seismic");
+  if (!section.given()) return settings;
+  read_duration(section, settings, problems);
+  {
+    Section base = section.optional_section("base");
+    settings.base = static_cast<BaseKind>(base.choice_or(0, "kind", {"compliant", "fixed"}));
+    if (settings.base == BaseKind::fixed && !std::isnan(settings.after_record))
+      section.error("duration", "counts from a record, and a fixed base takes none; give a time as '24 s'");
+    settings.spring = read_spring(base, settings.base, problems);
+    Section sides = section.optional_section("sides");
+    settings.sides = static_cast<SideKind>(sides.choice_or(0, "kind", {"free_field", "quiet", "roller"}));
+  }
+  settings.flip_blend =
+      section.number_or(0, "flip_blend", Dimension::none, {.lower = 0, .upper = 1, .upper_allowed = false});
+  settings.flip_ends = static_cast<FlipEnds>(section.choice_or(0, "flip_ends", {"on_slide", "never"}));
+  settings.inertia = static_cast<Inertia>(section.choice_or(0, "inertia", {"lumped", "consistent"}));
+  settings.leaving = static_cast<GroundLeaving>(section.choice_or(0, "leaving", {"remove", "stop"}));
+  settings.rest_below = section.number_or(0, "rest_below", Dimension::velocity, Range::not_negative());
+  settings.motion = read_motion(section.optional_section("motion"), folder, problems);
+  return settings;
+}
+} // namespace mpm

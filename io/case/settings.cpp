@@ -1,0 +1,117 @@
+#include "io/case/settings.hpp"
+
+#include "io/case/yaml_tree.hpp"
+
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+
+namespace mpm
+{
+namespace
+{
+using Kind = YamlNode::Kind;
+
+/// "a.b[0]" as a, b and [0]; names in quotation marks are whole.
+std::vector<std::string> steps_of(std::string_view path)
+{
+  std::vector<std::string> steps(1);
+  bool quoted = false;
+  for (const char c : path)
+    if (c == '"')
+      quoted = !quoted;
+    else if (c == '.' && !quoted)
+      steps.emplace_back();
+    else if (c == '[' && !quoted)
+      steps.emplace_back("[");
+    else if (c != ']' || quoted)
+      steps.back() += c;
+  return steps;
+}
+
+/// The child of that name or number, made at the end if there is none.
+YamlNode& below(YamlNode& node, const std::string& step)
+{
+  node.kind = step.starts_with('[') ? Kind::list : Kind::map;
+  for (YamlNode& child : node.children)
+    if (child.key == step) return child;
+  YamlNode& made = node.children.emplace_back();
+  made.key = step;
+  return made;
+}
+
+void emit(YAML::Emitter& out, const YamlNode& node)
+{
+  if (node.kind == Kind::scalar && node.text == empty_list)
+  {
+    out << YAML::Flow << YAML::BeginSeq << YAML::EndSeq;
+    return;
+  }
+  if (node.kind == Kind::scalar)
+  {
+    out << node.text;
+    return;
+  }
+  const auto is_map = [](const YamlNode& child) { return child.kind == Kind::map; };
+  if (node.kind == Kind::list)
+  {
+    const bool short_items = std::none_of(node.children.begin(), node.children.end(), is_map);
+    if (short_items) out << YAML::Flow;
+    out << YAML::BeginSeq;
+    for (const YamlNode& child : node.children) emit(out, child);
+    out << YAML::EndSeq;
+    return;
+  }
+  out << YAML::BeginMap;
+  for (const YamlNode& child : node.children)
+  {
+    out << YAML::Key << child.key << YAML::Value;
+    emit(out, child);
+  }
+  out << YAML::EndMap;
+}
+} // namespace
+
+void Settings::set(const std::string& path, const std::string& value)
+{
+  const auto [place, is_new] = places_.try_emplace(path, all_.size());
+  if (is_new)
+    all_.emplace_back(path, value);
+  else
+    all_[place->second].second = value;
+}
+
+void Settings::drop(const std::string& path)
+{
+  set(path, "");
+}
+
+Settings::Entries Settings::entries() const
+{
+  Entries kept;
+  std::copy_if(all_.begin(), all_.end(), std::back_inserter(kept),
+               [](const auto& entry) { return !entry.second.empty(); });
+  return kept;
+}
+
+std::string path_part(const std::string& key)
+{
+  return key.find_first_of(".[]") == std::string::npos ? key : '"' + key + '"';
+}
+
+std::string to_yaml(const Settings::Entries& settings)
+{
+  YamlNode root;
+  root.kind = Kind::map;
+  for (const auto& [path, value] : settings)
+  {
+    YamlNode* node = &root;
+    for (const std::string& step : steps_of(path)) node = &below(*node, step);
+    node->kind = Kind::scalar;
+    node->text = value;
+  }
+  YAML::Emitter out;
+  emit(out, root);
+  return std::string(out.c_str()) + "\n";
+}
+} // namespace mpm

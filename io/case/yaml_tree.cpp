@@ -1,0 +1,339 @@
+#include "io/case/yaml_tree.hpp"
+
+#include "io/common/error.hpp"
+
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <charconv>
+#include <limits>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+namespace mpm
+{
+namespace
+{
+constexpr int deepest = 20;         // levels; an alias that contains itself has no end
+constexpr int most_nodes = 100'000; // aliases of aliases multiply
+
+/// Turns yaml-cpp's nodes into ours.
+struct Builder
+{
+  std::string source;
+  bool has_lines;
+  Problems& problems;
+  int nodes = 0;
+  bool too_much = false;
+
+  Location location_of(const YAML::Mark& mark) const
+  {
+    if (!has_lines || mark.is_null()) return {source, 0, 0};
+    return {source, mark.line + 1, mark.column + 1};
+  }
+
+  YamlNode build(const YAML::Node& from, const std::string& path, int depth)
+  {
+    YamlNode node;
+    node.path = path;
+    node.location = location_of(from.Mark());
+    if (depth > deepest || ++nodes > most_nodes)
+    {
+      if (!too_much) problems.add(node.location, path, "is nested too deeply or is too large");
+      too_much = true;
+      return node;
+    }
+    if (from.IsScalar())
+    {
+      node.kind = YamlNode::Kind::scalar;
+      node.text = from.Scalar();
+    }
+    else if (from.IsSequence())
+    {
+      node.kind = YamlNode::Kind::list;
+      for (std::size_t i = 0; i < from.size() && !too_much; ++i)
+        node.children.push_back(build(from[i], path + "[" + std::to_string(i) + "]", depth + 1));
+    }
+    else if (from.IsMap())
+    {
+      node.kind = YamlNode::Kind::map;
+      for (const auto& member : from) // yaml-cpp keeps duplicates here
+      {
+        if (too_much) break;
+        add_member(node, member.first, member.second, depth);
+      }
+    }
+    return node;
+  }
+
+  void add_member(YamlNode& map, const YAML::Node& key, const YAML::Node& value, int depth)
+  {
+    const Location location = location_of(key.Mark());
+    if (!key.IsScalar()) return problems.add(location, map.path, "has a key that is not a plain word");
+    const std::string& name = key.Scalar();
+    const std::string part =
+        map.path.starts_with("profiles.") ? name : path_part(name); // key paths themselves
+    const std::string path = map.path.empty() ? part : map.path + "." + part;
+    if (const YamlNode* first = map.child(name))
+      return problems.add(location, path,
+                          "is given twice" +
+                              (first->key_location.line
+                                   ? ", first in line " + std::to_string(first->key_location.line)
+                                   : std::string()) +
+                              "; leave one");
+    YamlNode child = build(value, path, depth + 1);
+    child.key = name;
+    child.key_location = location;
+    if (child.location.line == 0) child.location = location;
+    map.children.push_back(std::move(child));
+  }
+};
+
+/// "a.b[0].c" and "a.b.0.c" as a, b, 0, c; names in quotation marks are whole.
+std::vector<std::string> parts_of(std::string_view path)
+{
+  std::vector<std::string> parts(1);
+  bool quoted = false;
+  for (const char c : path)
+  {
+    if (c == '"')
+      quoted = !quoted;
+    else if (!quoted && (c == '.' || c == '['))
+      parts.emplace_back();
+    else if (quoted || c != ']')
+      parts.back() += c;
+  }
+  return parts;
+}
+
+/// The child of `node` on an override's way, made if it is a missing key; null (and a problem) if impossible.
+YamlNode* step_down(YamlNode& node, const std::string& part, const Location& location, Problems& problems)
+{
+  const std::string here = node.path.empty() ? "the case" : node.path;
+  if (node.kind == YamlNode::Kind::empty) node.kind = YamlNode::Kind::map;
+  if (node.kind == YamlNode::Kind::scalar)
+    return problems.add(location, node.path, "is a single value and has no '" + part + "' below it"), nullptr;
+  if (node.kind == YamlNode::Kind::list)
+  {
+    std::size_t index = 0;
+    const auto [end, failure] = std::from_chars(part.data(), part.data() + part.size(), index);
+    if (failure == std::errc{} && end == part.data() + part.size() && index < node.children.size())
+      return &node.children[index];
+    problems.add(location, node.path,
+                 "is a list of " + std::to_string(node.children.size()) + ", counted from 0; it has no '" +
+                     part + "'");
+    return nullptr;
+  }
+  for (YamlNode& child : node.children)
+    if (child.key == part) return &child;
+  YamlNode& made = node.children.emplace_back();
+  made.key = part;
+  made.path = node.path.empty() ? path_part(part) : node.path + "." + path_part(part);
+  made.location = made.key_location = location;
+  return &made;
+}
+
+/// The node at a key path (parts), made where it is missing; null (and a problem) if impossible.
+YamlNode* reach(YamlNode& root, const std::vector<std::string>& parts, const Location& location,
+                Problems& problems)
+{
+  YamlNode* node = &root;
+  for (const std::string& part : parts)
+    if (!(node = step_down(*node, part, location, problems))) return nullptr;
+  return node;
+}
+
+bool is_key_path(const std::vector<std::string>& parts)
+{
+  return std::find(parts.begin(), parts.end(), "") == parts.end();
+}
+
+/// Puts one `key.path: value` of a profile into the tree.
+void apply_setting(YamlNode& root, YamlNode setting, Problems& problems)
+{
+  const std::vector<std::string> parts = parts_of(setting.key);
+  if (!is_key_path(parts))
+    return problems.add(setting.key_location, setting.path, "is not of the form key.path: value");
+  YamlNode* node = reach(root, parts, setting.key_location, problems);
+  if (!node) return;
+  setting.key = node->key;
+  setting.move_to(node->path);
+  *node = std::move(setting);
+}
+
+bool is_map(const YamlNode& node, const std::string& wanted, Problems& problems)
+{
+  if (node.kind == YamlNode::Kind::map) return true;
+  problems.add(node.location, node.path, "is not a map; give " + wanted);
+  return false;
+}
+
+/// Letters to change, add, leave out or exchange with their neighbour.
+int edit_distance(std::string_view a, std::string_view b)
+{
+  std::vector<int> before, last, row(b.size() + 1);
+  std::iota(row.begin(), row.end(), 0);
+  for (std::size_t i = 1; i <= a.size(); ++i)
+  {
+    before = std::exchange(last, row);
+    row[0] = static_cast<int>(i);
+    for (std::size_t j = 1; j <= b.size(); ++j)
+    {
+      row[j] = std::min({last[j - 1] + (a[i - 1] != b[j - 1]), row[j - 1] + 1, last[j] + 1});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        row[j] = std::min(row[j], before[j - 2] + 1);
+    }
+  }
+  return row.back();
+}
+} // namespace
+
+std::string Location::text() const
+{
+  if (line == 0) return source;
+  return source + ":" + std::to_string(line) + ":" + std::to_string(column);
+}
+
+void Problems::add(const Location& location, const std::string& path, const std::string& what)
+{
+  add_missing(location, path, what);
+  only_missing_ = false;
+}
+
+void Problems::add_missing(const Location& location, const std::string& path, const std::string& what)
+{
+  entries_.push_back({location, location.text() + ": " + (path.empty() ? "" : path + ": ") + what});
+}
+
+void Problems::throw_if_any() const
+{
+  if (entries_.empty()) return;
+  std::vector<Entry> sorted = entries_;
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const Entry& a, const Entry& b) {
+                     return std::tie(a.location.line, a.location.column) <
+                            std::tie(b.location.line, b.location.column);
+                   });
+  std::string all;
+  for (const Entry& entry : sorted) all += (all.empty() ? "" : "\n") + entry.message;
+  throw Error(only_missing_ ? exit_code::input_missing : exit_code::bad_input, all);
+}
+
+const YamlNode* YamlNode::child(std::string_view wanted) const
+{
+  if (kind != Kind::map) return nullptr;
+  for (const YamlNode& node : children)
+    if (node.key == wanted) return &node;
+  return nullptr;
+}
+
+void YamlNode::move_to(const std::string& new_path)
+{
+  const std::size_t old_length = path.size();
+  path = new_path;
+  for (YamlNode& below : children) below.move_to(new_path + below.path.substr(old_length));
+}
+
+YamlNode parse_yaml(const std::string& text, const std::string& file, Problems& problems)
+{
+  try
+  {
+    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
+    if (documents.size() > 1) problems.add({file, 0, 0}, "", "holds several YAML documents; leave one");
+    if (!documents.empty()) return Builder{file, true, problems}.build(documents[0], "", 0);
+  }
+  catch (const YAML::Exception& error)
+  {
+    const Location location = error.mark.is_null()
+                                  ? Location{file, 0, 0}
+                                  : Location{file, error.mark.line + 1, error.mark.column + 1};
+    problems.add(location, "", "is not YAML: " + error.msg);
+  }
+  YamlNode nothing;
+  nothing.location = {file, 1, 1};
+  return nothing;
+}
+
+void apply_override(YamlNode& root, const std::string& override_text, Problems& problems)
+{
+  const Location location{"--set " + override_text, 0, 0};
+  const auto equals = override_text.find('=');
+  const std::string path = override_text.substr(0, equals);
+  const std::vector<std::string> parts = parts_of(path);
+  if (equals == std::string::npos || !is_key_path(parts))
+    return problems.add(location, "", "is not of the form key.path=value");
+  YAML::Node value;
+  try
+  {
+    value = YAML::Load(override_text.substr(equals + 1));
+  }
+  catch (const YAML::Exception& error)
+  {
+    return problems.add(location, path, "the value is not YAML: " + error.msg);
+  }
+  YamlNode* node = reach(root, parts, location, problems);
+  if (!node) return;
+  const std::string key = node->key;
+  *node = Builder{location.source, false, problems}.build(value, node->path, static_cast<int>(parts.size()));
+  node->key = key;
+  node->key_location = location;
+}
+
+void apply_profile(YamlNode& root, const std::string& wanted, Problems& problems)
+{
+  YamlNode profiles;
+  profiles.kind = YamlNode::Kind::map;
+  const auto found = std::find_if(root.children.begin(), root.children.end(),
+                                  [](const YamlNode& child) { return child.key == "profiles"; });
+  if (found != root.children.end())
+  {
+    profiles = std::move(*found);
+    root.children.erase(found);
+    if (!is_map(profiles, "profiles by name, as {quick: {grid.spacing: 1 m}}", problems)) return;
+  }
+  std::vector<std::string> names;
+  for (const YamlNode& profile : profiles.children)
+  {
+    names.push_back(profile.key);
+    if (!is_map(profile, "key paths with their values, as {grid.spacing: 1 m}", problems)) continue;
+    if (profile.key != wanted) continue;
+    for (const YamlNode& setting : profile.children) apply_setting(root, setting, problems);
+  }
+  if (wanted.empty() || std::find(names.begin(), names.end(), wanted) != names.end()) return;
+  std::string known = names.empty() ? "the case has no profiles" : "the case's profiles are";
+  for (const std::string& name : names) known += (name == names.front() ? " " : ", ") + name;
+  problems.add({"--profile " + wanted, 0, 0}, "", "no such profile; " + known + suggestion(wanted, names));
+}
+
+std::vector<std::pair<std::string, std::string>> flattened(const YamlNode& root)
+{
+  if (root.kind == YamlNode::Kind::scalar) return {{root.path, root.text}};
+  std::vector<std::pair<std::string, std::string>> all;
+  for (const YamlNode& child : root.children)
+    for (auto& setting : flattened(child)) all.push_back(std::move(setting));
+  return all;
+}
+
+std::string nearest(std::string_view wrong, const std::vector<std::string>& names)
+{
+  std::string best;
+  int least = std::numeric_limits<int>::max();
+  for (const std::string& name : names)
+  {
+    const bool part = wrong.size() > 2 && (name.starts_with(wrong) || wrong.starts_with(name));
+    const int distance = part ? 1 : edit_distance(wrong, name);
+    const int most = std::max(1, static_cast<int>(std::max(wrong.size(), name.size())) / 3);
+    if (distance > most || distance >= least) continue;
+    least = distance;
+    best = name;
+  }
+  return best;
+}
+
+std::string suggestion(std::string_view wrong, const std::vector<std::string>& names)
+{
+  const std::string best = nearest(wrong, names);
+  return best.empty() ? "" : "; did you mean '" + best + "'?";
+}
+} // namespace mpm

@@ -1,0 +1,78 @@
+#pragma once
+// Time series of a run: gauges, free field, energies, slide. Held in memory and written whole, so that
+// rows cannot be torn; kept in the checkpoint, so that a resumed run goes on without a gap or a double.
+
+#include "io/common/files.hpp"
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace mpm
+{
+/// Named positions along a dimension: {"gauge", {"crest", "toe"}}, {"component", {"x", "y"}}.
+struct Axis
+{
+  std::string name;
+  std::vector<std::string> labels;
+};
+
+/// Series are added first, then rows. Series on one clock are sampled together; a group of the file has
+/// one clock, and gets its `time` and axes as dimension scales (xarray opens it with `group=`).
+class History
+{
+public:
+  using Series = std::size_t;
+  using Clock = std::size_t;
+
+  Clock add_clock();
+  /// `path` is GROUP/NAME, as "gauges/velocity" or "free_field/left/surface_velocity". Without axes: a
+  /// scalar.
+  Series add_series(const std::string& path, const std::string& unit, std::vector<Axis> axes = {},
+                    Clock clock = 0);
+
+  /// Begins the row of a time (s) later than the last one's. What is not recorded in it stays NaN.
+  void start_row(double time, Clock clock = 0);
+  /// Fills the last row: as many values as the axes have places, the last axis fastest.
+  void record(Series, std::span<const double> values);
+  void record(Series, double value);
+
+  std::size_t rows(Clock clock = 0) const { return clocks_[clock].size(); }
+  const std::vector<double>& times(Clock clock = 0) const { return clocks_[clock]; }
+  /// All rows of a series, one after the other.
+  const std::vector<double>& values(Series series) const { return all_[series].values; }
+  /// Forgets all but the first `rows` rows.
+  void truncate(std::size_t rows, Clock clock = 0);
+
+  /// One layout for history.h5 and for a group of the checkpoint.
+  void save(h5::Group& group) const;
+  /// Takes the rows from a file whose series and axes are the ones added here; refuses another.
+  void load(const h5::Group& group);
+  /// `more` adds what is no series over time.
+  void write(const std::filesystem::path&, const Provenance&,
+             const std::function<void(h5::File&)>& more = {}) const;
+
+private:
+  struct Record
+  {
+    std::string group;
+    std::string name;
+    std::string unit;
+    std::vector<Axis> axes;
+    Clock clock;
+    std::size_t width; ///< values in a row
+    std::vector<double> values;
+
+    std::string path() const { return group + "/" + name; }
+  };
+  void check_new(const Record&) const;
+  void save_record(h5::Group&, const Record&) const;
+  std::vector<double> load_times(const h5::Group&, const Record&) const;
+
+  std::vector<std::vector<double>> clocks_{1};
+  std::vector<Record> all_;
+};
+} // namespace mpm
