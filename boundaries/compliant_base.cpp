@@ -5,9 +5,9 @@
 
 namespace mpm
 {
-void CompliantBase::release(const Domain& domain)
+void CompliantBase::release(const Particles& particles)
 {
-  const auto gone = [&](const Face& face) { return has_left(domain, face); };
+  const auto gone = [&](const Face& face) { return has_left(particles, face); };
   for (std::size_t k = faces_.size(); k-- > 0;)
     if (gone(faces_[k])) spring_.drop(k);
   std::erase_if(faces_, gone);
@@ -15,11 +15,11 @@ void CompliantBase::release(const Domain& domain)
 
 void CompliantBase::add_forces(Domain& domain, double dt)
 {
-  nodes_.find(domain, faces_, stretch_spring(domain, dt));
+  nodes_.find(domain.grid, domain.particles, faces_, stretch_spring(domain.particles, dt));
   const auto [vx, vy] = wave_->velocity(domain.time + 0.5 * dt);
   Grid& g = domain.grid;
-  auto& dashpot_x = domain.consistent_inertia ? g.face_dashpot_x : g.dashpot_x;
-  auto& dashpot_y = domain.consistent_inertia ? g.face_dashpot_y : g.dashpot_y;
+  auto& dashpot_x = domain.settings.consistent_inertia ? g.face_dashpot_x : g.dashpot_x;
+  auto& dashpot_y = domain.settings.consistent_inertia ? g.face_dashpot_y : g.dashpot_y;
   for (const FaceNode& at : nodes_)
   {
     dashpot_x[at.node] += at.dashpot_x;
@@ -31,53 +31,53 @@ void CompliantBase::add_forces(Domain& domain, double dt)
   input_[0][1] += 2 * vy * dt;
 }
 
-void CompliantBase::apply_dashpots(Domain& domain, double dt)
+void CompliantBase::apply_dashpots(Grid& grid, double dt)
 {
-  columns_.apply(domain, nodes_, dt);
+  columns_.apply(grid, nodes_, dt);
 }
 
-std::vector<std::array<double, 2>> CompliantBase::stretch_spring(const Domain& domain, double dt)
+std::vector<std::array<double, 2>> CompliantBase::stretch_spring(const Particles& particles, double dt)
 {
   if (!spring_.acts()) return {};
   std::vector<std::array<double, 2>> behind; // what a face lacks to the free field
   behind.reserve(faces_.size());
   for (const Face& face : faces_)
   {
-    const auto [x, y] = distance(domain, free_field_, face);
+    const auto [x, y] = distance(particles, free_field_, face);
     behind.push_back({-x, -y});
   }
   return spring_.follow(behind, dt);
 }
 
-std::array<double, 2> CompliantBase::distance(const Domain& domain,
+std::array<double, 2> CompliantBase::distance(const Particles& p,
                                               const std::vector<FreeFieldBase>& free_field,
                                               const Face& face) const
 {
-  const Particles& p = domain.particles;
-  const int k = domain.place[face.particle];
+  const int k = p.index_of[face.particle];
   const auto [ux, uy] = free_field_displacement(free_field, p.reference_x[k], input_[0]);
   return {p.x[k] - p.reference_x[k] - ux, p.y[k] - p.reference_y[k] - uy};
 }
 
-BaseDrift CompliantBase::drift(const Domain& domain, const std::vector<FreeFieldBase>& free_field) const
+BaseDrift CompliantBase::drift(const Particles& particles, const std::vector<FreeFieldBase>& free_field) const
 {
   BaseDrift result;
   if (faces_.empty()) return result;
   const auto along = [&](const Face& face)
-  { return domain.particles.reference_x[domain.place[face.particle]]; };
+  { return particles.reference_x[particles.index_of[face.particle]]; };
   const double middle = 0.5 * (along(faces_.front()) + along(faces_.back()));
   result.half_length = along(faces_.back()) - middle;
   double moment = 0, inertia = 0; // about the middle; the faces are evenly spaced
   for (const Face& face : faces_)
   {
-    const auto [ux, uy] = distance(domain, free_field, face);
+    const auto [ux, uy] = distance(particles, free_field, face);
     const double arm = along(face) - middle;
     moment += arm * uy;
     inertia += arm * arm;
     result.greatest = std::max(result.greatest, std::hypot(ux, uy));
   }
   result.rotation = inertia > 0 ? moment / inertia : 0;
-  result.corner = {distance(domain, free_field, faces_.front()), distance(domain, free_field, faces_.back())};
+  result.corner = {distance(particles, free_field, faces_.front()),
+                   distance(particles, free_field, faces_.back())};
   return result;
 }
 
@@ -94,7 +94,7 @@ std::string CompliantBase::state_problem(const Domain& domain) const
 {
   if (input_.size() != 1) return "the input's displacement is not one";
   if (!spring_.fits(faces_.size())) return "the spring is not that of as many faces";
-  return faces_problem(faces_, domain);
+  return faces_problem(faces_, domain.particles, domain.grid.spacing);
 }
 
 /// The traction c (2 v_up - u) does the work c v_up^2 - c (u - v_up)^2 on a face that moves with u: what
@@ -108,7 +108,7 @@ void CompliantBase::measure_work(const Domain& domain, double dt, Energies& now)
   for (const FaceNode& at : nodes_)
   {
     const auto [vx, vy] = g.middle_velocity(at.node);
-    const auto [ux, uy] = domain.consistent_inertia ? face_velocity(at.column) : std::array{vx, vy};
+    const auto [ux, uy] = domain.settings.consistent_inertia ? face_velocity(at.column) : std::array{vx, vy};
     spring += at.drive_x * vx + at.drive_y * vy;
     incoming += at.dashpot_x * upx * upx + at.dashpot_y * upy * upy;
     radiated +=

@@ -21,9 +21,9 @@ public:
   }
   std::string_view name() const override { return "base"; }
   bool absorbs() const override { return true; }
-  void release(const Domain& domain) override;
+  void release(const Particles& particles) override;
   void add_forces(Domain& domain, double dt) override;
-  void apply_dashpots(Domain& domain, double dt) override;
+  void apply_dashpots(Grid& grid, double dt) override;
   void measure_work(const Domain& domain, double dt, Energies& now) const override;
   void visit_state(StateVisitor& visitor) override;
   std::string state_problem(const Domain& domain) const override;
@@ -35,13 +35,13 @@ public:
   /// From the left to the right.
   const std::vector<Face>& faces() const { return faces_; }
   /// How far the base stands from a free field now.
-  BaseDrift drift(const Domain& domain, const std::vector<FreeFieldBase>& free_field) const;
+  BaseDrift drift(const Particles& particles, const std::vector<FreeFieldBase>& free_field) const;
 
 private:
-  std::array<double, 2> distance(const Domain& domain, const std::vector<FreeFieldBase>& free_field,
+  std::array<double, 2> distance(const Particles& particles, const std::vector<FreeFieldBase>& free_field,
                                  const Face& face) const;
   /// Velocity of the spring's far end behind each face, m/s; empty without a spring.
-  std::vector<std::array<double, 2>> stretch_spring(const Domain& domain, double dt);
+  std::vector<std::array<double, 2>> stretch_spring(const Particles& particles, double dt);
 
   std::vector<Face> faces_; ///< from the left to the right
   FaceNodes nodes_;         ///< of the last step

@@ -16,11 +16,10 @@ std::array<double, 2> yielding(const Grid& g, int node, double dt)
 }
 } // namespace
 
-void FaceColumns::apply(Domain& domain, const FaceNodes& nodes, double dt)
+void FaceColumns::apply(Grid& g, const FaceNodes& nodes, double dt)
 {
   columns_.clear();
   if (nodes.begin() == nodes.end()) return;
-  Grid& g = domain.grid;
   const auto [low, high] = std::minmax_element(
       nodes.begin(), nodes.end(), [](const auto& a, const auto& b) { return a.column < b.column; });
   first_ = low->column;

@@ -18,7 +18,7 @@ class FaceColumns
 public:
   /// Gives `nodes`, which have moved without these dashpots, what the face's say in the step of dt s; their
   /// coefficients are Grid::face_dashpot_x and face_dashpot_y.
-  void apply(Domain& domain, const FaceNodes& nodes, double dt);
+  void apply(Grid& grid, const FaceNodes& nodes, double dt);
   /// Velocity of the face at a column of nodes, mean of the step's start and end, m/s.
   const std::array<double, 2>& velocity(int column) const { return columns_[column - first_].velocity; }
 

@@ -67,16 +67,15 @@ void FaceNodes::lay_out(const Grid& grid)
   }
 }
 
-void FaceNodes::find(const Domain& domain, const std::vector<Face>& faces,
+void FaceNodes::find(const Grid& g, const Particles& p, const std::vector<Face>& faces,
                      std::span<const std::array<double, 2>> far_end)
 {
-  const Grid& g = domain.grid;
   cells_.clear();
   for (std::size_t k = 0; k < faces.size(); ++k)
   {
-    const int at = domain.place[faces[k].particle];
-    const Stencil x = cubic_stencil(domain.particles.x[at] + faces[k].offset_x - g.origin_x, g.spacing);
-    const Stencil y = cubic_stencil(domain.particles.y[at] + faces[k].offset_y - g.origin_y, g.spacing);
+    const int at = p.index_of[faces[k].particle];
+    const Stencil x = cubic_stencil(p.x[at] + faces[k].offset_x - g.origin_x, g.spacing);
+    const Stencil y = cubic_stencil(p.y[at] + faces[k].offset_y - g.origin_y, g.spacing);
     if (cells_.empty() || cells_.back().i != x.first || cells_.back().j != y.first)
       cells_.push_back(Cell{x.first, y.first});
     Cell& cell = cells_.back();
@@ -103,13 +102,12 @@ void FaceNodes::find(const Domain& domain, const std::vector<Face>& faces,
     }
 }
 
-std::string faces_problem(const std::vector<Face>& faces, const Domain& domain)
+std::string faces_problem(const std::vector<Face>& faces, const Particles& particles, double spacing)
 {
-  const double far =
-      100 * domain.grid.spacing; // faces stand beside their particles, ghosts' within a few cells
+  const double far = 100 * spacing; // faces stand beside their particles, ghosts' within a few cells
   for (const Face& face : faces)
   {
-    if (face.particle < 0 || face.particle >= std::ssize(domain.place) || domain.place[face.particle] < 0)
+    if (face.particle < 0 || face.particle >= std::ssize(particles.index_of) || has_left(particles, face))
       return "a face belongs to particle " + std::to_string(face.particle) + ", which is not there";
     if (!(std::fabs(face.offset_x) < far && std::fabs(face.offset_y) < far)) return "a face stands far off";
     if (!(face.dashpot_x >= 0 && face.dashpot_y >= 0)) return "a dashpot is negative";

@@ -34,7 +34,7 @@ class FaceNodes
 public:
   /// Spreads the dashpots of `faces` over the 16 nodes around each, where they stand now. Face k has a far
   /// end of its own that moves with `far_end`[k], m/s; empty for none.
-  void find(const Domain& domain, const std::vector<Face>& faces,
+  void find(const Grid& grid, const Particles& particles, const std::vector<Face>& faces,
             std::span<const std::array<double, 2>> far_end = {});
 
   auto begin() const { return nodes_.begin(); }
@@ -63,11 +63,11 @@ private:
 };
 
 /// What of loaded faces cannot be, in words; empty: nothing.
-std::string faces_problem(const std::vector<Face>& faces, const Domain& domain);
+std::string faces_problem(const std::vector<Face>& faces, const Particles& particles, double spacing);
 /// Whether the particle of a face has left.
-inline bool has_left(const Domain& domain, const Face& face)
+inline bool has_left(const Particles& particles, const Face& face)
 {
-  return domain.place[face.particle] < 0;
+  return particles.index_of[face.particle] < 0;
 }
 
 /// Saves or loads faces, under names that begin with `prefix`.

@@ -64,7 +64,7 @@ std::vector<Eigen::Matrix2d> FreeFieldColumn::stress_of_rows() const
   std::vector<Eigen::Matrix2d> result;
   for (const std::int64_t id : ids_)
   {
-    const int k = domain->place[id];
+    const int k = domain->particles.index_of[id];
     Eigen::Matrix2d sigma;
     sigma << p.stress_xx[k], p.stress_xy[k], p.stress_xy[k], p.stress_yy[k];
     result.push_back(p.volume[k] * sigma);
@@ -88,7 +88,7 @@ void FreeFieldSide::begin(const Domain& domain, double position, double bottom, 
   const Particles& p = domain.particles;
   for (int id = 0; id < p.size(); ++id)
   {
-    const int k = domain.place[id];
+    const int k = domain.particles.index_of[id];
     if (std::fabs(p.x[k] - position) > strip * domain.grid.spacing) continue;
     Image ghost;
     ghost.parent = id;
@@ -104,12 +104,12 @@ void FreeFieldSide::begin(const Domain& domain, double position, double bottom, 
   }
 }
 
-void FreeFieldSide::release(const Domain& domain)
+void FreeFieldSide::release(const Particles& particles)
 {
-  const auto gone = [&](const Face& face) { return has_left(domain, face); };
+  const auto gone = [&](const Face& face) { return has_left(particles, face); };
   std::erase_if(faces_, gone);
   std::erase_if(ghost_base_, gone);
-  ghosts_.release(domain);
+  ghosts_.release(particles);
 }
 
 std::array<double, 2> FreeFieldSide::column_velocity(int row) const
@@ -122,14 +122,14 @@ std::array<double, 2> FreeFieldSide::column_velocity(int row) const
 
 std::array<double, 2> FreeFieldSide::base_velocity(int row) const
 {
-  if (!column_->domain->consistent_inertia) return column_velocity(row);
+  if (!column_->domain->settings.consistent_inertia) return column_velocity(row);
   return column_->compliant_base ? column_->compliant_base->face_velocity(0) : std::array<double, 2>{};
 }
 
 void FreeFieldSide::add_forces(Domain& domain, double dt)
 {
   Grid& g = domain.grid;
-  nodes_.find(domain, faces_);
+  nodes_.find(g, domain.particles, faces_);
   for (const FaceNode& at : nodes_)
   {
     const auto [vx, vy] = column_velocity(at.row);
@@ -161,7 +161,7 @@ void FreeFieldSide::add_ghost_base(Domain& domain, double dt)
 {
   const auto [ux, uy] = wave_->velocity(domain.time + 0.5 * dt);
   Grid& g = domain.grid;
-  ghost_nodes_.find(domain, ghost_base_);
+  ghost_nodes_.find(g, domain.particles, ghost_base_);
   for (const FaceNode& at : ghost_nodes_)
   {
     if (g.mass[at.node] <= 0) continue;
@@ -187,7 +187,7 @@ void FreeFieldSide::measure_work(const Domain& domain, double dt, Energies& now)
   }
   now[Energy::radiated_sides] += dt * radiated;
   if (!column_) return;
-  now[Energy::free_field] += dt * (brought + ghost_base_power(domain, dt)) + ghosts_.work(domain, dt);
+  now[Energy::free_field] += dt * (brought + ghost_base_power(domain, dt)) + ghosts_.work(domain.grid, dt);
 }
 
 double FreeFieldSide::ghost_base_power(const Domain& domain, double dt) const
@@ -203,14 +203,14 @@ double FreeFieldSide::ghost_base_power(const Domain& domain, double dt) const
   return power;
 }
 
-double FreeFieldSide::separation(const Domain& domain) const
+double FreeFieldSide::separation(const Particles& p) const
 {
   if (!column_) return 0;
-  const Particles &p = domain.particles, &q = column_->domain->particles;
+  const Particles& q = column_->domain->particles;
   double greatest = 0;
   for (const Face& face : faces_)
   {
-    const int k = domain.place[face.particle];
+    const int k = p.index_of[face.particle];
     const int c = column_->particle_of_row(column_->row_near(p.reference_y[k]));
     const double ux = p.x[k] - p.reference_x[k] - (q.x[c] - q.reference_x[c]);
     const double uy = p.y[k] - p.reference_y[k] - (q.y[c] - q.reference_y[c]);
@@ -234,10 +234,14 @@ void FreeFieldSide::visit_state(StateVisitor& visitor)
 
 std::string FreeFieldSide::state_problem(const Domain& domain) const
 {
-  if (std::string problem = faces_problem(faces_, domain); !problem.empty() || !column_) return problem;
+  if (std::string problem = faces_problem(faces_, domain.particles, domain.grid.spacing);
+      !problem.empty() || !column_)
+    return problem;
   const std::size_t rows = column_->rows();
   if (static_stress_.size() != rows) return "the static stress is not that of the column's rows";
-  if (std::string problem = faces_problem(ghost_base_, domain); !problem.empty()) return problem;
-  return ghosts_.problem(domain, rows);
+  if (std::string problem = faces_problem(ghost_base_, domain.particles, domain.grid.spacing);
+      !problem.empty())
+    return problem;
+  return ghosts_.problem(domain.grid, domain.particles, rows);
 }
 } // namespace mpm

@@ -32,7 +32,7 @@ public:
   int first_row = 0;                               ///< grid row of the first entry
 
   /// Where the particle of a row stands; the first row is at the base, the last one at the surface.
-  int particle_of_row(int row) const { return domain->place[ids_[row]]; }
+  int particle_of_row(int row) const { return domain->particles.index_of[ids_[row]]; }
 
 private:
   void note_motion(double dt);
@@ -56,9 +56,9 @@ public:
 
   std::string_view name() const override { return edge_ == Edge::left ? "left" : "right"; }
   bool absorbs() const override { return true; }
-  void sort(const Domain& domain) override { ghosts_.sort(domain); }
-  void bind(const Domain& domain) override { ghosts_.bind(domain); }
-  void release(const Domain& domain) override;
+  void sort(const Domain& domain) override { ghosts_.sort(domain.grid, domain.particles); }
+  void bind(const Domain& domain) override { ghosts_.bind(domain.grid, domain.particles); }
+  void release(const Particles& particles) override;
   void add_forces(Domain& domain, double dt) override;
   void measure_work(const Domain& domain, double dt, Energies& now) const override;
   void visit_state(StateVisitor& visitor) override;
@@ -67,7 +67,7 @@ public:
   /// The faces, from the bottom up.
   const std::vector<Face>& faces() const { return faces_; }
   /// Greatest distance by which a face and its column have moved apart, m.
-  double separation(const Domain& domain) const;
+  double separation(const Particles& particles) const;
 
 private:
   void load_ghosts();

@@ -51,7 +51,7 @@ Images make_images(const Domain& domain, std::span<const Wall> walls)
     const Loaded self{{.parent = p.id[k]},
                       {.stress_x = {V * p.stress_xx[k], V * p.stress_xy[k]},
                        .stress_y = {V * p.stress_xy[k], V * p.stress_yy[k]},
-                       .weight = {m * domain.gravity_x, m * domain.gravity_y}}};
+                       .weight = {m * domain.settings.gravity_x, m * domain.settings.gravity_y}}};
     std::vector<Loaded> family{self};
     const Eigen::Vector2d parent(p.x[k], p.y[k]);
     for (const Wall& wall : walls)
@@ -73,40 +73,39 @@ Images make_images(const Domain& domain, std::span<const Wall> walls)
   return result;
 }
 
-void Images::release(const Domain& domain)
+void Images::release(const Particles& particles)
 {
-  std::erase_if(list, [&](const Image& image) { return domain.place[image.parent] < 0; });
+  std::erase_if(list, [&](const Image& image) { return particles.index_of[image.parent] < 0; });
 }
 
-void Images::sort(const Domain& domain)
+void Images::sort(const Grid& g, const Particles& p)
 {
-  const Grid& g = domain.grid;
   const auto cell = [&](double x, double origin)
   { return static_cast<int>(std::floor((x - origin) * g.inverse_spacing())); };
   for (Image& image : list)
   {
-    const int parent = domain.place[image.parent];
-    const int i = cell(domain.particles.x[parent] + image.offset.x(), g.origin_x);
-    const int j = cell(domain.particles.y[parent] + image.offset.y(), g.origin_y);
+    const int parent = p.index_of[image.parent];
+    const int i = cell(p.x[parent] + image.offset.x(), g.origin_x);
+    const int j = cell(p.y[parent] + image.offset.y(), g.origin_y);
     image.block = {g.wrapped ? 0 : block_of(i), block_of(j)};
   }
 }
 
-void Images::bind(const Domain& domain)
+void Images::bind(const Grid& grid, const Particles& p)
 {
   const auto rank = [&](const Image& image)
-  { return std::tuple(image.block, domain.place[image.parent], image.load); };
+  { return std::tuple(image.block, p.index_of[image.parent], image.load); };
   std::sort(list.begin(), list.end(), [&](const Image& a, const Image& b) { return rank(a) < rank(b); });
   bound_.clear();
   for (const Image& image : list)
-    bound_.push_back({image.offset.x(), image.offset.y(), domain.place[image.parent], image.load});
+    bound_.push_back({image.offset.x(), image.offset.y(), p.index_of[image.parent], image.load});
   homes_.clear();
   work_ = {};
   for (int k = 0; k < static_cast<int>(list.size()); ++k)
   {
     const BlockIndex block = list[k].block;
     if (homes_.empty() || homes_.back().block != block)
-      homes_.push_back({block, domain.grid.around(block), k, k, false, {}});
+      homes_.push_back({block, grid.around(block), k, k, false, {}});
     homes_.back().end = k + 1;
   }
   for (const ImageHome& occupied : homes_)
@@ -135,10 +134,10 @@ struct ImageSources
   ImageLoad load[chunk_size];
 
   /// Takes the first `count` of the images.
-  void take(std::span<const BoundImage> images, const std::vector<ImageLoad>& loads, const Domain& domain,
-            int count)
+  void take(std::span<const BoundImage> images, const std::vector<ImageLoad>& loads, const Particles& p,
+            double spacing, int count)
   {
-    const double stress = -inverse_slopes * domain.grid.inverse_spacing(), weight = inverse_weights;
+    const double stress = -inverse_slopes * (1 / spacing), weight = inverse_weights;
     const double factors[8] = {stress, stress, stress, stress, weight, weight, weight, 0};
     static_assert(sizeof(ImageLoad) == sizeof factors);
     const Pairs all = load_as<Pairs>(factors);
@@ -148,8 +147,8 @@ struct ImageSources
       const BoundImage& image = images[k];
       const BoundImage& later = images[std::min(k + 16, last)];
       __builtin_prefetch(&loads[later.load]); // neighbours in the list need not be here
-      x[k] = domain.particles.x[image.parent] + image.offset_x;
-      y[k] = domain.particles.y[image.parent] + image.offset_y;
+      x[k] = p.x[image.parent] + image.offset_x;
+      y[k] = p.y[image.parent] + image.offset_y;
       store(load[k].stress_x, all * load_as<Pairs>(loads[image.load].stress_x));
     }
   }
@@ -201,17 +200,18 @@ private:
 } // namespace
 
 template <bool inertia>
-void Images::scatter(const Domain& domain, ImageHome& occupied, const Rows& rows) const
+void Images::scatter(const Grid& grid, const Particles& particles, ImageHome& occupied,
+                     const Rows& rows) const
 {
   occupied.force.value.fill(0);
   const RowAccelerations a = inertia ? accelerations(occupied.block, rows) : RowAccelerations{};
-  const TileStencils tile(domain.grid, occupied.block);
+  const TileStencils tile(grid, occupied.block);
   ChunkStencils stencils;
   ImageSources from;
   for (int begin = occupied.begin; begin < occupied.end; begin += chunk_size)
   {
     const int count = std::min(chunk_size, occupied.end - begin);
-    from.take(std::span(bound_).subspan(begin), loads, domain, count);
+    from.take(std::span(bound_).subspan(begin), loads, particles, grid.spacing, count);
     stencils.find(tile, from.x, from.y, count);
     for (int k = 0; k < count;)
     {
@@ -244,15 +244,16 @@ std::array<double, 2> Images::gather(Grid& g, const ImageHome& occupied)
 
 std::array<double, 2> Images::add_forces(Domain& domain, const Rows& rows)
 {
-  const bool rests = domain.rests();
-  for (ImageHome& occupied : homes_) occupied.hidden = rests && !domain.awake_around(occupied.around);
+  const bool rests = domain.blocks.rests();
+  for (ImageHome& occupied : homes_) occupied.hidden = rests && !domain.blocks.awake_around(occupied.around);
   parallel::for_each(work_,
                      [&](int k)
                      {
                        ImageHome& occupied = homes_[k];
                        if (occupied.hidden) return;
-                       rows.acceleration.empty() ? scatter<false>(domain, occupied, rows)
-                                                 : scatter<true>(domain, occupied, rows);
+                       rows.acceleration.empty()
+                           ? scatter<false>(domain.grid, domain.particles, occupied, rows)
+                           : scatter<true>(domain.grid, domain.particles, occupied, rows);
                      });
   std::array<double, 2> sum{};
   for (const ImageHome& occupied : homes_)
@@ -265,9 +266,8 @@ std::array<double, 2> Images::add_forces(Domain& domain, const Rows& rows)
   return sum;
 }
 
-double Images::work(const Domain& domain, double dt) const
+double Images::work(const Grid& g, double dt) const
 {
-  const Grid& g = domain.grid;
   double power = 0;
   for (const ImageHome& occupied : homes_)
   {
@@ -288,7 +288,7 @@ double Images::work(const Domain& domain, double dt) const
 
 void FrozenImages::bind(const Domain& domain)
 {
-  images_.bind(domain);
+  images_.bind(domain.grid, domain.particles);
   mass_ = std::accumulate(domain.particles.mass.begin(), domain.particles.mass.end(), 0.0);
 }
 
@@ -297,7 +297,7 @@ void FrozenImages::add_forces(Domain& domain, double)
   const std::array<double, 2> now = images_.add_forces(domain, {});
   if (resultant_.empty()) resultant_.push_back(now);
   // Sleeping ground hides its images: the correction stays what it was, as the ground does.
-  if (!domain.rests())
+  if (!domain.blocks.rests())
     correction_[0] = {(resultant_[0][0] - now[0]) / mass_, (resultant_[0][1] - now[1]) / mass_};
   const auto [ax, ay] = correction_[0];
   Grid& g = domain.grid;
@@ -315,7 +315,8 @@ void FrozenImages::add_forces(Domain& domain, double)
 void FrozenImages::measure_work(const Domain& domain, double dt, Energies& now) const
 {
   const auto [px, py] = domain.energy.step.momentum;
-  now[Energy::reaction] += images_.work(domain, dt) + dt * (correction_[0][0] * px + correction_[0][1] * py);
+  now[Energy::reaction] +=
+      images_.work(domain.grid, dt) + dt * (correction_[0][0] * px + correction_[0][1] * py);
 }
 
 void FrozenImages::visit_state(StateVisitor& visitor)
@@ -334,20 +335,19 @@ std::string FrozenImages::state_problem(const Domain& domain) const
 {
   if (resultant_.size() > 1 || correction_.size() != 1)
     return "the images' resultant or correction is not one";
-  return images_.problem(domain, images_.loads.size());
+  return images_.problem(domain.grid, domain.particles, images_.loads.size());
 }
 
-std::string Images::problem(const Domain& domain, std::size_t loads_there) const
+std::string Images::problem(const Grid& grid, const Particles& p, std::size_t loads_there) const
 {
-  const Particles& p = domain.particles;
   for (const Image& image : list)
   {
-    if (image.parent < 0 || image.parent >= std::ssize(domain.place) || domain.place[image.parent] < 0)
+    if (image.parent < 0 || image.parent >= std::ssize(p.index_of) || p.index_of[image.parent] < 0)
       return "an image has the parent " + std::to_string(image.parent) + ", which is not there";
     if (image.load < 0 || std::size_t(image.load) >= loads_there)
       return "an image brings load " + std::to_string(image.load) + ", which is not there";
-    const int k = domain.place[image.parent];
-    if (!within_tile(domain.grid, image.block, p.x[k] + image.offset.x(), p.y[k] + image.offset.y()))
+    const int k = p.index_of[image.parent];
+    if (!within_tile(grid, image.block, p.x[k] + image.offset.x(), p.y[k] + image.offset.y()))
       return "an image does not stand in its block";
   }
   return {};

@@ -45,11 +45,11 @@ public:
   std::vector<ImageLoad> loads;
 
   /// Forgets images whose parents have left.
-  void release(const Domain& domain);
+  void release(const Particles& particles);
   /// The particles were sorted: finds the block in which each image stands now.
-  void sort(const Domain& domain);
+  void sort(const Grid& grid, const Particles& particles);
   /// Finds the parents again, and groups the images by their blocks.
-  void bind(const Domain& domain);
+  void bind(const Grid& grid, const Particles& particles);
 
   /// Motion of the ghosts' mass by grid row, m/s2: acceleration[row - first_row]; empty for none.
   struct Rows
@@ -61,10 +61,10 @@ public:
   /// sleeping ground all around them are left out: the nodes that they reach do not move.
   std::array<double, 2> add_forces(Domain& domain, const Rows& rows);
   /// Work of those forces in the step, J per m; after the equation of motion.
-  double work(const Domain& domain, double dt) const;
+  double work(const Grid& grid, double dt) const;
 
   /// What of a loaded list cannot be, in words; empty: nothing. `loads` is how many there will be.
-  std::string problem(const Domain& domain, std::size_t loads) const;
+  std::string problem(const Grid& grid, const Particles& particles, std::size_t loads) const;
   /// Saves or loads the list, without the loads, under names that begin with `prefix`.
   void visit_list(StateVisitor& visitor, const std::string& prefix);
   /// Likewise the loads' stress and weight.
@@ -81,7 +81,7 @@ private:
   };
   /// Forces of a occupied block's images, into its tile.
   template <bool inertia>
-  void scatter(const Domain& domain, ImageHome& occupied, const Rows& rows) const;
+  void scatter(const Grid& grid, const Particles& particles, ImageHome& occupied, const Rows& rows) const;
   /// Adds a occupied block's tile to the nodes that hold real mass, and returns the sum.
   static std::array<double, 2> gather(Grid& grid, const ImageHome& occupied);
   std::vector<BoundImage> bound_; ///< as the list
@@ -100,9 +100,9 @@ class FrozenImages final : public Boundary
 public:
   explicit FrozenImages(Images images) : images_(std::move(images)) {}
   std::string_view name() const override { return "images"; }
-  void sort(const Domain& domain) override { images_.sort(domain); }
+  void sort(const Domain& domain) override { images_.sort(domain.grid, domain.particles); }
   void bind(const Domain& domain) override;
-  void release(const Domain& domain) override { images_.release(domain); }
+  void release(const Particles& particles) override { images_.release(particles); }
   void add_forces(Domain& domain, double dt) override;
   void measure_work(const Domain& domain, double dt, Energies& now) const override;
   void visit_state(StateVisitor& visitor) override;

@@ -45,9 +45,8 @@ void MirroredWall::share_nodes(Grid& grid) const
   for (const int node : on_wall_) grid.share[node] *= 0.5;
 }
 
-void MirroredWall::mirror_velocities(Domain& domain)
+void MirroredWall::mirror_velocities(Grid& g)
 {
-  Grid& g = domain.grid;
   for (const auto& [inside, ghost] : pairs_)
   {
     g.velocity_x[ghost] = wall_.image_sign_x() * g.velocity_x[inside];
@@ -55,9 +54,8 @@ void MirroredWall::mirror_velocities(Domain& domain)
   }
 }
 
-void MirroredWall::constrain(Domain& domain)
+void MirroredWall::constrain(Grid& g)
 {
-  Grid& g = domain.grid;
   if (!shared_) share_nodes(g);
   shared_ = true;
   const double sx = wall_.image_sign_x(), sy = wall_.image_sign_y();

@@ -31,8 +31,8 @@ class MirroredWall final : public Boundary
 public:
   explicit MirroredWall(const Wall& wall) : wall_(wall) {}
   void bind(const Domain& domain) override;
-  void constrain(Domain& domain) override;
-  void mirror_velocities(Domain& domain) override;
+  void constrain(Grid& grid) override;
+  void mirror_velocities(Grid& grid) override;
 
 private:
   void share_nodes(Grid& grid) const;

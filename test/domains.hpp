@@ -182,8 +182,8 @@ inline Domain random_corner(double h, int to_x, int to_y)
   random_velocities(domain, 2, 72);
   random_affine(domain, 3, 73);
   random_stress(domain, 1e5, 74);
-  domain.gravity_x = 1.3;
-  domain.gravity_y = -9.81;
+  domain.settings.gravity_x = 1.3;
+  domain.settings.gravity_y = -9.81;
   return domain;
 }
 
@@ -210,10 +210,10 @@ inline Domain same_particles(const Domain& from)
   to.particles = from.particles;
   to.materials = from.materials;
   to.material_begin = from.material_begin;
-  to.gravity_x = from.gravity_x;
-  to.gravity_y = from.gravity_y;
-  to.damping = from.damping;
-  to.plastic = from.plastic;
+  to.settings.gravity_x = from.settings.gravity_x;
+  to.settings.gravity_y = from.settings.gravity_y;
+  to.settings.local_damping = from.settings.local_damping;
+  to.settings.plastic = from.settings.plastic;
   to.time = from.time;
   return to;
 }
@@ -221,7 +221,7 @@ inline Domain same_particles(const Domain& from)
 /// Whether all particles agree in order and in every bit of every field and history variable.
 inline bool identical(const Domain& a, const Domain& b)
 {
-  bool same = a.particles.id == b.particles.id && a.drift == b.drift;
+  bool same = a.particles.id == b.particles.id && a.blocks.drift == b.blocks.drift;
   for (const ParticleField& field : particle_fields)
     for (int c = 0; c < field.components; ++c)
       same = same && a.particles.*field.data[c] == b.particles.*field.data[c];

@@ -92,18 +92,18 @@ void save_materials(h5::Group group, const Domain& domain)
 void save_homes(h5::Group group, const Domain& domain)
 {
   std::vector<std::int64_t> table;
-  for (const OccupiedBlock& occupied : domain.occupied_blocks)
+  for (const OccupiedBlock& occupied : domain.blocks.occupied)
     for (const Range& r : occupied.ranges)
       table.insert(table.end(), {occupied.block.x, occupied.block.y, r.material, r.begin, r.end});
   group.attribute("spacing", domain.grid.spacing);
   group.attribute("origin", std::vector<double>{domain.grid.origin_x, domain.grid.origin_y});
-  group.attribute("drift", domain.drift);
+  group.attribute("drift", domain.blocks.drift);
   group.write("occupied_blocks", std::span<const std::int64_t>(table), {table.size() / 5, 5}, "1");
 }
 
 void load_homes(const h5::Group& group, Domain& domain)
 {
-  domain.occupied_blocks.clear();
+  domain.blocks.occupied.clear();
   const std::vector<std::int64_t> table = group.read_ints("occupied_blocks");
   if (table.size() % 5 != 0) refuse(group, "occupied_blocks", "has no five columns");
   for (const std::int64_t value : table)
@@ -114,12 +114,12 @@ void load_homes(const h5::Group& group, Domain& domain)
   for (std::size_t k = 0; k < table.size(); k += 5)
   {
     const BlockIndex block{static_cast<int>(table[k]), static_cast<int>(table[k + 1])};
-    if (domain.occupied_blocks.empty() || domain.occupied_blocks.back().block != block)
-      domain.occupied_blocks.push_back({block, {}, {}});
-    domain.occupied_blocks.back().ranges.push_back(
+    if (domain.blocks.occupied.empty() || domain.blocks.occupied.back().block != block)
+      domain.blocks.occupied.push_back({block, {}, {}});
+    domain.blocks.occupied.back().ranges.push_back(
         {static_cast<int>(table[k + 2]), static_cast<int>(table[k + 3]), static_cast<int>(table[k + 4])});
   }
-  domain.drift = group.attribute_double("drift");
+  domain.blocks.drift = group.attribute_double("drift");
 }
 
 /// History variables, and which particles are of which material: all that the case makes, less those that

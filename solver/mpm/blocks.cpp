@@ -65,7 +65,7 @@ void sort_material(Domain& domain, int material, std::vector<std::pair<BlockInde
 std::vector<BlockIndex> with_surroundings(const Domain& domain)
 {
   std::vector<BlockIndex> wanted;
-  for (const OccupiedBlock& occupied : domain.occupied_blocks)
+  for (const OccupiedBlock& occupied : domain.blocks.occupied)
     for (int y = -1; y <= 1; ++y)
       for (int x = -1; x <= 1; ++x)
         wanted.push_back({domain.grid.wrapped ? 0 : occupied.block.x + x, occupied.block.y + y});
@@ -89,21 +89,14 @@ void set_materials(Domain& domain, std::vector<Material> materials, const std::v
   std::iota(domain.particles.id.begin(), domain.particles.id.end(), 0);
 }
 
-void find_places(Domain& domain)
-{
-  const std::size_t planted = domain.particles.size() + domain.departed.size();
-  domain.place.assign(planted, -1);
-  for (int k = 0; k < domain.particles.size(); ++k) domain.place[domain.particles.id[k]] = k;
-}
-
 void rebuild(Domain& domain)
 {
   const auto absorbing = [](const auto& boundary) { return boundary->absorbs(); };
   const bool dashpots = std::any_of(domain.boundaries.begin(), domain.boundaries.end(), absorbing);
-  domain.grid.build(with_surroundings(domain), dashpots, dashpots && domain.consistent_inertia);
-  for (OccupiedBlock& occupied : domain.occupied_blocks) occupied.around = domain.grid.around(occupied.block);
+  domain.grid.build(with_surroundings(domain), dashpots, dashpots && domain.settings.consistent_inertia);
+  for (OccupiedBlock& occupied : domain.blocks.occupied) occupied.around = domain.grid.around(occupied.block);
   bind_rest(domain);
-  find_places(domain);
+  domain.particles.index_ids(domain.planted());
   for (const auto& boundary : domain.boundaries) boundary->bind(domain);
 }
 
@@ -114,23 +107,23 @@ void sort_particles(Domain& domain)
     sort_material(domain, static_cast<int>(k), stretches);
   std::stable_sort(stretches.begin(), stretches.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
-  const std::vector<OccupiedBlock> before = std::move(domain.occupied_blocks);
-  domain.occupied_blocks.clear();
+  const std::vector<OccupiedBlock> before = std::move(domain.blocks.occupied);
+  domain.blocks.occupied.clear();
   for (const auto& [block, range] : stretches)
   {
-    if (domain.occupied_blocks.empty() || domain.occupied_blocks.back().block != block)
+    if (domain.blocks.occupied.empty() || domain.blocks.occupied.back().block != block)
     {
       const auto by_block = [](const OccupiedBlock& occupied, BlockIndex wanted)
       { return occupied.block < wanted; };
       const auto old = std::lower_bound(before.begin(), before.end(), block, by_block);
       const bool known = old != before.end() && old->block == block;
-      domain.occupied_blocks.push_back(known ? OccupiedBlock{block, {}, {}, old->asleep, old->greatest}
+      domain.blocks.occupied.push_back(known ? OccupiedBlock{block, {}, {}, old->asleep, old->greatest}
                                              : OccupiedBlock{block, {}, {}});
     }
-    domain.occupied_blocks.back().ranges.push_back(range);
+    domain.blocks.occupied.back().ranges.push_back(range);
   }
-  domain.drift = 0;
-  find_places(domain);
+  domain.blocks.drift = 0;
+  domain.particles.index_ids(domain.planted());
   for (const auto& boundary : domain.boundaries) boundary->sort(domain);
   rebuild(domain);
 }
@@ -155,9 +148,8 @@ double kinetic_energy(const Domain& domain)
   return total;
 }
 
-double greatest_speed(const Domain& domain)
+double greatest_speed(const Particles& p)
 {
-  const Particles& p = domain.particles;
   double greatest = 0;
   for (int k = 0; k < p.size(); ++k)
     greatest = std::max(greatest, std::hypot(p.velocity_x[k], p.velocity_y[k]));

@@ -5,6 +5,8 @@
 namespace mpm
 {
 struct Domain;
+struct Grid;
+struct Particles;
 
 /// Which outer face of a model.
 enum class Edge
@@ -27,17 +29,17 @@ struct Boundary
   /// Finds its particles and nodes again after a sort or a restart; must not go by positions,
   /// since a restart finds them further on than the sort did.
   virtual void bind(const Domain&) {}
-  /// Particles have left the domain (their Domain::place is -1): forgets what belongs to them.
-  virtual void release(const Domain&) {}
+  /// Particles have left (their Particles::index_of is -1): forgets what belongs to them.
+  virtual void release(const Particles&) {}
   /// Adds forces and dashpots to the grid, after the particles' own scatter. The step runs from domain.time
   /// to domain.time + dt.
   virtual void add_forces(Domain&, double /*dt*/) {}
   /// Last word before the equation of motion: mirrors nodes at a wall.
-  virtual void constrain(Domain&) {}
+  virtual void constrain(Grid&) {}
   /// With consistent inertia, after the equation of motion node by node: forces that several nodes rule.
-  virtual void apply_dashpots(Domain&, double /*dt*/) {}
+  virtual void apply_dashpots(Grid&, double /*dt*/) {}
   /// After a correction of the velocities node by node: mirrors them at a wall again.
-  virtual void mirror_velocities(Domain&) {}
+  virtual void mirror_velocities(Grid&) {}
   /// After the equation of motion: adds to `now` what its own forces did to the ground in the step, with the
   /// nodes' mean velocity (Grid::middle_velocity), J per m.
   virtual void measure_work(const Domain&, double /*dt*/, Energies& /*now*/) const {}

@@ -53,8 +53,8 @@ void remove_particles(Domain& domain, std::span<const Leaving> leaving)
   if (leaving.empty()) return;
   note(domain, leaving);
   book_departure(domain, [&] { drop_particles(domain, leaving); });
-  find_places(domain);
-  for (const auto& boundary : domain.boundaries) boundary->release(domain);
+  domain.particles.index_ids(domain.planted());
+  for (const auto& boundary : domain.boundaries) boundary->release(domain.particles);
   sort_particles(domain);
 }
 

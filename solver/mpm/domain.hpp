@@ -48,6 +48,39 @@ struct Gauge
   double velocity_x = 0, velocity_y = 0;
 };
 
+/// What the stage asks of every step.
+struct StepSettings
+{
+  double gravity_x = 0, gravity_y = 0; ///< body acceleration of now, m/s2
+  double local_damping = 0;        ///< beta of eq. (1): the share of a node's force that resists its motion
+  double flip_blend = 0;           ///< share of FLIP in the particles' velocities, see grid_to_particles
+  bool average_volume = false;     ///< volume changes averaged over the cell, see average_volume_changes
+  bool consistent_inertia = false; ///< whether the step corrects the lumped mass, see correct_inertia
+  bool plastic = true;             ///< whether the laws may yield
+  bool measure_force_balance = false; ///< whether the step fills StepMeasures::force_balance
+};
+
+/// The blocks that hold particles, and how threads share them.
+struct Blocks
+{
+  std::vector<OccupiedBlock> occupied;    ///< sorted by block
+  std::vector<int> occupied_in;           ///< index in `occupied` by index in Grid::blocks; -1: holds nothing
+  parallel::Group awake;                  ///< indices of occupied blocks that take part in steps
+  std::array<parallel::Group, 4> colours; ///< the same by colour; blocks of one colour share no node
+  double drift = 0; ///< greatest distance that a particle may have moved since the sort, cells
+
+  /// Whether some ground sleeps.
+  bool rests() const { return awake.items.size() < occupied.size(); }
+  /// Whether ground in one of these blocks is awake.
+  bool awake_around(const Neighbours& around) const
+  {
+    return std::any_of(around.begin(), around.end(),
+                       [this](int block) {
+                         return block >= 0 && occupied_in[block] >= 0 && !occupied[occupied_in[block]].asleep;
+                       });
+  }
+};
+
 /// Force balance and motion of the last step, of nodes that carry more than 1 % of a full cell.
 struct ForceBalance
 {
@@ -56,63 +89,48 @@ struct ForceBalance
   double ratio() const { return total > 0 ? unbalanced / total : 0; }
 };
 
+/// What a step tells about itself; nothing of it goes into the next one.
+struct StepMeasures
+{
+  ForceBalance force_balance;
+  double greatest_move = 0; ///< greatest displacement component of a particle, cells
+  PhaseTimes times;         ///< of all steps since the program began
+};
+
 /// The run left the range in which explicit steps mean something (blow-up, not a number).
 struct Diverged : std::runtime_error
 {
   using std::runtime_error::runtime_error;
 };
 
-/// A body of material on its own grid, with its boundaries: the model itself, or a free-field column.
+/// A body of ground on its own grid, with its boundaries: the model itself, or a free-field column.
 struct Domain
 {
   std::string name;
-  Grid grid;
+
+  // The state: what a checkpoint keeps.
+  double time = 0; ///< at the start of the step, s
   Particles particles;
   std::vector<Material> materials;
   std::vector<int> material_begin; ///< particles of material k: [material_begin[k], material_begin[k + 1])
   std::vector<std::unique_ptr<Boundary>> boundaries;
   std::vector<Gauge> gauges;
   std::vector<Departed> departed; ///< particles that have left, in the order in which they did
-
-  double gravity_x = 0, gravity_y = 0; ///< body acceleration of now, m/s2
-  double damping = 0;                  ///< local damping beta, eq. (1)
-  double flip_blend = 0;               ///< share of FLIP in the particles' velocities, METHODS section 1
-  bool average_volume = false;       ///< volume changes averaged over the cell, see average_volume_changes()
-  bool consistent_inertia = false;   ///< whether the step corrects the lumped mass, see correct_inertia
-  bool plastic = true;               ///< whether the laws may yield
-  bool force_balance_wanted = false; ///< whether the step measures `balance`
-  double time = 0;                   ///< at the start of the step, s
-
-  std::vector<OccupiedBlock> occupied_blocks; ///< sorted by block
-  parallel::Group awake;                      ///< occupied blocks that take part in steps
-  std::array<parallel::Group, 4> colours;     ///< the same, by colour; those of one share no node
-  std::vector<int> occupied_in;               ///< place of a grid block's occupied block, -1 if it has none
   Rest rest;
-  /// Whether some ground sleeps.
-  bool rests() const { return awake.items.size() < occupied_blocks.size(); }
-  /// Whether ground in one of these blocks is awake.
-  bool awake_around(const Neighbours& around) const
-  {
-    return std::any_of(around.begin(), around.end(),
-                       [this](int block) {
-                         return block >= 0 && occupied_in[block] >= 0 &&
-                                !occupied_blocks[occupied_in[block]].asleep;
-                       });
-  }
-  std::vector<int> place; ///< where a particle id stands now; -1: it has left
-  double drift = 0;       ///< cells that a particle may have moved since the last sort
-  ForceBalance force_balance;
   EnergyBalance energy;
-  PhaseTimes times;         ///< of all steps since the program began
-  double greatest_move = 0; ///< greatest displacement component of the last step, in cells
+
+  Grid grid;     ///< filled anew in every step
+  Blocks blocks; ///< follow from the particles' positions at the last sort
+  StepSettings settings;
+  StepMeasures measures;
+
+  /// How many particles there were in the undeformed ground; their ids are below.
+  std::size_t planted() const { return particles.id.size() + departed.size(); }
 };
 
 /// Sorts the particles, with their materials' state, by block and cell; rebuilds blocks and grid and binds
 /// the boundaries.
 void sort_particles(Domain& domain);
-
-/// Finds Domain::place again.
-void find_places(Domain& domain);
 
 /// Rebuilds blocks, grid and bindings from the occupied blocks in place, without touching the order (after a
 /// restart).
@@ -126,7 +144,7 @@ void set_materials(Domain& domain, std::vector<Material> materials, const std::v
 double kinetic_energy(const Domain& domain);
 
 /// Greatest particle speed in m/s.
-double greatest_speed(const Domain& domain);
+double greatest_speed(const Particles& particles);
 
 /// Torn particles larger than the 4 h x 4 h that their spline covers fly alone: no neighbour corrects their
 /// affine velocity, which would spread them without end. Sets their volume to that, and their opening to as

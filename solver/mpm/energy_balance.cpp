@@ -51,8 +51,8 @@ Content content_of(const Domain& domain)
 double gravity_work(const Domain& domain, const Content& now)
 {
   const EnergyBalance& l = domain.energy;
-  return l.gravity_work + 0.5 * (l.gravity_x + domain.gravity_x) * (now.moment_x - l.moment_x) +
-         0.5 * (l.gravity_y + domain.gravity_y) * (now.moment_y - l.moment_y);
+  return l.gravity_work + 0.5 * (l.gravity_x + domain.settings.gravity_x) * (now.moment_x - l.moment_x) +
+         0.5 * (l.gravity_y + domain.settings.gravity_y) * (now.moment_y - l.moment_y);
 }
 
 /// What was brought less what is there or has left.
@@ -92,8 +92,8 @@ void note_gravity(Domain& domain)
   l.gravity_work = gravity_work(domain, now);
   l.moment_x = now.moment_x;
   l.moment_y = now.moment_y;
-  l.gravity_x = domain.gravity_x;
-  l.gravity_y = domain.gravity_y;
+  l.gravity_x = domain.settings.gravity_x;
+  l.gravity_y = domain.settings.gravity_y;
 }
 
 void book_departure(Domain& domain, const std::function<void()>& remove)
@@ -118,7 +118,8 @@ Energies energies_of(const Domain& domain)
   const EnergyBalance& l = domain.energy;
   const Content now = content_of(domain);
   const double gravity_back =
-      0.5 * l.step.dt * (domain.gravity_x * now.momentum_x + domain.gravity_y * now.momentum_y);
+      0.5 * l.step.dt *
+      (domain.settings.gravity_x * now.momentum_x + domain.settings.gravity_y * now.momentum_y);
   Energies e = l.flow;
   e[Energy::kinetic] = kinetic_energy(domain) - l.kinetic;
   e[Energy::elastic] = now.elastic - l.elastic;

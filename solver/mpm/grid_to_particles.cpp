@@ -177,7 +177,7 @@ private:
 double update_home(Domain& domain, const OccupiedBlock& occupied, double dt)
 {
   const Grid& grid = domain.grid;
-  const Transfer transfer{dt, grid.spacing, domain.flip_blend};
+  const Transfer transfer{dt, grid.spacing, domain.settings.flip_blend};
   const Component x(grid, occupied.around, grid.velocity_x, grid.momentum_x, transfer);
   const Component y(grid, occupied.around, grid.velocity_y, grid.momentum_y, transfer);
   const TileStencils tile(grid, occupied.block);
@@ -237,8 +237,8 @@ void move(Gauge& gauge, const Domain& domain, double density, NodeFinder& find, 
     {
       const int node = find(sx.first + i, sy.first + j);
       if (node < 0) continue;
-      const int occupied = domain.occupied_in[node / block_nodes];
-      rests |= occupied >= 0 && domain.occupied_blocks[occupied].asleep;
+      const int occupied = domain.blocks.occupied_in[node / block_nodes];
+      rests |= occupied >= 0 && domain.blocks.occupied[occupied].asleep;
       if (grid.mass[node] <= 0) continue;
       const double w = sx.weight[i] * sy.weight[j];
       weight += w;
@@ -250,8 +250,8 @@ void move(Gauge& gauge, const Domain& domain, double density, NodeFinder& find, 
   const auto next = [&](double before, double gravity, double sum) {
     return flies ? before + dt * gravity : weight > 0 ? sum / weight : 0;
   };
-  gauge.velocity_x = next(gauge.velocity_x, domain.gravity_x, vx);
-  gauge.velocity_y = next(gauge.velocity_y, domain.gravity_y, vy);
+  gauge.velocity_x = next(gauge.velocity_x, domain.settings.gravity_x, vx);
+  gauge.velocity_y = next(gauge.velocity_y, domain.settings.gravity_y, vy);
   gauge.x += dt * gauge.velocity_x;
   gauge.y += dt * gauge.velocity_y;
 }
@@ -268,10 +268,10 @@ void move_tracers(Domain& domain, double dt)
 
 void grid_to_particles(Domain& domain, double dt)
 {
-  std::vector<double> moves(domain.occupied_blocks.size());
-  parallel::for_each(domain.awake,
-                     [&](int k) { moves[k] = update_home(domain, domain.occupied_blocks[k], dt); });
-  domain.greatest_move = moves.empty() ? 0 : *std::max_element(moves.begin(), moves.end());
+  std::vector<double> moves(domain.blocks.occupied.size());
+  parallel::for_each(domain.blocks.awake,
+                     [&](int k) { moves[k] = update_home(domain, domain.blocks.occupied[k], dt); });
+  domain.measures.greatest_move = moves.empty() ? 0 : *std::max_element(moves.begin(), moves.end());
   watch_rest(domain, moves, dt);
   move_tracers(domain, dt);
 }

@@ -105,12 +105,10 @@ void correct_block(Grid& g, int block)
 }
 } // namespace
 
-void correct_inertia(Domain& domain, double dt)
+void correct_inertia(Grid& g, double dt)
 {
-  Grid& g = domain.grid;
   for (auto* field : {&g.change_x, &g.change_y, &g.linked_mass}) field->resize(g.nodes());
   g.for_each_block([&](int k) { prepare(g, k, dt); });
   g.for_each_block([&](int k) { correct_block(g, k); });
-  for (const auto& boundary : domain.boundaries) boundary->mirror_velocities(domain);
 }
 } // namespace mpm

@@ -2,7 +2,7 @@
 
 namespace mpm
 {
-struct Domain;
+struct Grid;
 
 /// Gives back most of what the lumped mass takes from the inertia of the splines. Lumping leaves out
 /// h^2/3 div(rho grad a), so that waves are slow by (kh)^2/6; with the accelerations a of the lumped equation
@@ -20,5 +20,5 @@ struct Domain;
 ///
 /// To be called after the equation of motion. Leaves v* - P/m of the lumped one in Grid::change_x and
 /// change_y.
-void correct_inertia(Domain& domain, double dt);
+void correct_inertia(Grid& grid, double dt);
 } // namespace mpm

@@ -19,9 +19,12 @@ struct Particles
   std::vector<double> mass;                                       ///< kg per m out of plane
   std::vector<double> volume;                                     ///< current, m3 per m out of plane
   std::vector<std::int64_t> id;                                   ///< stable name of the particle
+  std::vector<int> index_of; ///< index in these arrays by id; -1: the particle has left
 
   int size() const { return static_cast<int>(x.size()); }
   void resize(int count);
+  /// Fills index_of after particles have moved in the arrays; ids are below `ids`.
+  void index_ids(std::size_t ids);
 };
 
 /// The fields of a particle, named once for sorting, checkpoints and checks: a scalar, a vector (x, y), a
@@ -64,5 +67,11 @@ inline void Particles::resize(int count)
 {
   for_each_array(*this, [count](std::vector<double>& values) { values.resize(count, 0.0); });
   id.resize(count, 0);
+}
+
+inline void Particles::index_ids(std::size_t ids)
+{
+  index_of.assign(ids, -1);
+  for (int k = 0; k < size(); ++k) index_of[id[k]] = k;
 }
 } // namespace mpm

@@ -132,7 +132,7 @@ void scatter_home(Domain& domain, const OccupiedBlock& occupied)
     const double mass_scale = scale_of(*range);
     for (; range != occupied.ranges.end() && scale_of(*range) == mass_scale; ++range)
       scatter_range(domain, tile, *range, mass_scale, tiles);
-    const double gx = domain.gravity_x / mass_scale, gy = domain.gravity_y / mass_scale;
+    const double gx = domain.settings.gravity_x / mass_scale, gy = domain.settings.gravity_y / mass_scale;
     for (int k = 0; k < tile_size; ++k)
     {
       tiles.force.value[2 * k] += gx * tiles.mass.value[k];
@@ -148,9 +148,10 @@ void scatter_home(Domain& domain, const OccupiedBlock& occupied)
 void particles_to_grid(Domain& domain, double dt)
 {
   domain.grid.for_each_block([&](int k) { domain.grid.clear(k); });
-  parallel::for_each_in_turn(domain.colours, [&](int k) { scatter_home(domain, domain.occupied_blocks[k]); });
-  domain.times.lap(Phase::scatter);
+  parallel::for_each_in_turn(domain.blocks.colours,
+                             [&](int k) { scatter_home(domain, domain.blocks.occupied[k]); });
+  domain.measures.times.lap(Phase::scatter);
   for (const auto& boundary : domain.boundaries) boundary->add_forces(domain, dt);
-  domain.times.lap(Phase::boundaries);
+  domain.measures.times.lap(Phase::boundaries);
 }
 } // namespace mpm

@@ -13,7 +13,8 @@ template <class Function>
 void for_each_around(Domain& domain, const OccupiedBlock& occupied, const Function& f)
 {
   for (const int block : occupied.around)
-    if (block >= 0 && domain.occupied_in[block] >= 0) f(domain.occupied_blocks[domain.occupied_in[block]]);
+    if (block >= 0 && domain.blocks.occupied_in[block] >= 0)
+      f(domain.blocks.occupied[domain.blocks.occupied_in[block]]);
 }
 
 void stand_still(Domain& domain, const OccupiedBlock& occupied)
@@ -44,14 +45,14 @@ bool wake_beside(Domain& domain, const OccupiedBlock& occupied)
 bool fall_asleep(Domain& domain)
 {
   std::vector<OccupiedBlock*> tired;
-  for (OccupiedBlock& occupied : domain.occupied_blocks)
+  for (OccupiedBlock& occupied : domain.blocks.occupied)
   {
     double greatest = 0;
     for_each_around(domain, occupied,
                     [&](const OccupiedBlock& other) { greatest = std::max(greatest, other.greatest); });
     if (!occupied.asleep && greatest < domain.rest.below) tired.push_back(&occupied);
   }
-  for (OccupiedBlock& occupied : domain.occupied_blocks) occupied.greatest = 0;
+  for (OccupiedBlock& occupied : domain.blocks.occupied) occupied.greatest = 0;
   for (OccupiedBlock* occupied : tired)
   {
     occupied->asleep = true;
@@ -63,22 +64,22 @@ bool fall_asleep(Domain& domain)
 
 void bind_rest(Domain& domain)
 {
-  domain.occupied_in.assign(domain.grid.blocks.size(), -1);
-  domain.awake = {};
-  domain.colours = {};
-  for (int k = 0; k < static_cast<int>(domain.occupied_blocks.size()); ++k)
+  domain.blocks.occupied_in.assign(domain.grid.blocks.size(), -1);
+  domain.blocks.awake = {};
+  domain.blocks.colours = {};
+  for (int k = 0; k < static_cast<int>(domain.blocks.occupied.size()); ++k)
   {
-    const OccupiedBlock& occupied = domain.occupied_blocks[k];
-    domain.occupied_in[occupied.around[4]] = k;
+    const OccupiedBlock& occupied = domain.blocks.occupied[k];
+    domain.blocks.occupied_in[occupied.around[4]] = k;
     if (occupied.asleep) continue;
-    domain.awake.add(k, occupied.particles());
-    domain.colours[occupied.block.colour()].add(k, occupied.particles());
+    domain.blocks.awake.add(k, occupied.particles());
+    domain.blocks.colours[occupied.block.colour()].add(k, occupied.particles());
   }
   std::vector<int>& held = domain.rest.held;
   held.clear();
-  for (const OccupiedBlock& occupied : domain.occupied_blocks)
+  for (const OccupiedBlock& occupied : domain.blocks.occupied)
   {
-    if (!occupied.asleep || !domain.awake_around(occupied.around)) continue;
+    if (!occupied.asleep || !domain.blocks.awake_around(occupied.around)) continue;
     for_each_run(domain.grid, occupied.around,
                  [&](int node, int, int count)
                  {
@@ -95,7 +96,7 @@ void allow_rest(Domain& domain, double below)
   if (rest.below == below) return;
   rest.below = below;
   rest.watched = 0;
-  for (OccupiedBlock& occupied : domain.occupied_blocks)
+  for (OccupiedBlock& occupied : domain.blocks.occupied)
   {
     occupied.asleep = false;
     occupied.greatest = std::numeric_limits<double>::infinity();
@@ -103,10 +104,9 @@ void allow_rest(Domain& domain, double below)
   bind_rest(domain);
 }
 
-void hold_resting_nodes(Domain& domain)
+void hold_nodes(Grid& g, std::span<const int> nodes)
 {
-  Grid& g = domain.grid;
-  for (const int node : domain.rest.held)
+  for (const int node : nodes)
   {
     g.momentum_x[node] = g.momentum_y[node] = 0;
     g.force_x[node] = g.force_y[node] = 0;
@@ -118,11 +118,11 @@ void watch_rest(Domain& domain, std::span<const double> moves, double dt)
 {
   Rest& rest = domain.rest;
   if (rest.below <= 0) return;
-  rest.skipped += domain.particles.size() - domain.awake.shares.cost();
+  rest.skipped += domain.particles.size() - domain.blocks.awake.shares.cost();
   bool changed = false;
-  for (const int k : domain.awake.items)
+  for (const int k : domain.blocks.awake.items)
   {
-    OccupiedBlock& occupied = domain.occupied_blocks[k];
+    OccupiedBlock& occupied = domain.blocks.occupied[k];
     const double speed = moves[k] * domain.grid.spacing / dt;
     occupied.greatest = std::max(occupied.greatest, speed);
     if (speed >= rest.below) changed |= wake_beside(domain, occupied);
@@ -140,7 +140,7 @@ void visit_rest(StateVisitor& visitor, Domain& domain)
 {
   std::vector<double> settings{domain.rest.below, domain.rest.watched}, greatest;
   std::vector<std::int64_t> asleep, skipped{domain.rest.skipped};
-  for (const OccupiedBlock& occupied : domain.occupied_blocks)
+  for (const OccupiedBlock& occupied : domain.blocks.occupied)
   {
     greatest.push_back(occupied.greatest);
     asleep.push_back(occupied.asleep);
@@ -150,7 +150,7 @@ void visit_rest(StateVisitor& visitor, Domain& domain)
   visitor.integers("asleep", asleep);
   visitor.integers("skipped", skipped);
   if (settings.size() != 2 || skipped.size() != 1 || skipped[0] < 0 ||
-      greatest.size() != domain.occupied_blocks.size() || asleep.size() != domain.occupied_blocks.size())
+      greatest.size() != domain.blocks.occupied.size() || asleep.size() != domain.blocks.occupied.size())
     throw std::runtime_error("rest is that of other occupied_blocks");
   for (const double value : {settings[0], settings[1]})
     if (!(std::isfinite(value) && value >= 0)) throw std::runtime_error("rest/settings cannot be");
@@ -159,10 +159,10 @@ void visit_rest(StateVisitor& visitor, Domain& domain)
   domain.rest.below = settings[0];
   domain.rest.watched = settings[1];
   domain.rest.skipped = skipped[0];
-  for (std::size_t k = 0; k < domain.occupied_blocks.size(); ++k)
+  for (std::size_t k = 0; k < domain.blocks.occupied.size(); ++k)
   {
-    domain.occupied_blocks[k].greatest = greatest[k];
-    domain.occupied_blocks[k].asleep = asleep[k] != 0;
+    domain.blocks.occupied[k].greatest = greatest[k];
+    domain.blocks.occupied[k].asleep = asleep[k] != 0;
   }
 }
 } // namespace mpm

@@ -9,6 +9,7 @@
 namespace mpm
 {
 struct Domain;
+struct Grid;
 
 /// Ground at rest, which steps leave alone until something moves beside it.
 ///
@@ -33,9 +34,9 @@ void allow_rest(Domain& domain, double below);
 /// Finds the nodes to be held and the occupied blocks that are awake; after a change of either.
 void bind_rest(Domain& domain);
 
-/// Takes momentum, forces and velocity from the nodes that are held: before the equation of motion, and after
-/// a correction of the velocities node by node.
-void hold_resting_nodes(Domain& domain);
+/// Takes momentum, forces and velocity from nodes (Rest::held): before the equation of motion, and after a
+/// correction of the velocities node by node.
+void hold_nodes(Grid& grid, std::span<const int> nodes);
 
 /// After a step of dt s: wakes what has something moving beside it, lets fall asleep what has come to rest.
 /// `moves` are the greatest displacements of each occupied block's particles in it, in cells.

@@ -175,32 +175,34 @@ ForceBalance balance_of(const Domain& domain, double cell_mass)
   ForceBalance b;
   for (const double part : parts) b.unbalanced += part;
   for (const double mass : domain.particles.mass) b.total += 2 * mass;
-  b.total *= std::hypot(domain.gravity_x, domain.gravity_y);
+  b.total *= std::hypot(domain.settings.gravity_x, domain.settings.gravity_y);
   return b;
 }
 } // namespace
 
 void solve_grid(Domain& domain, double dt)
 {
-  for (const auto& boundary : domain.boundaries) boundary->constrain(domain);
-  hold_resting_nodes(domain);
   Grid& grid = domain.grid;
+  for (const auto& boundary : domain.boundaries) boundary->constrain(grid);
+  hold_nodes(grid, domain.rest.held);
   const int blocks = static_cast<int>(grid.blocks.size());
   double density = 0;
   for (const Material& material : domain.materials) density = std::max(density, material.elastic().density);
   const double cell_mass = density * grid.spacing * grid.spacing;
   grid.smallest_mass = 1e-14 * cell_mass;
-  const Parameters a{dt, grid.smallest_mass, domain.damping};
+  const Parameters a{dt, grid.smallest_mass, domain.settings.local_damping};
   std::vector<StepWork> works(blocks);
-  grid.for_each_block([&](int k) { works[k] = solve_block(grid, k, a, !domain.consistent_inertia); });
-  if (domain.consistent_inertia)
+  grid.for_each_block([&](int k)
+                      { works[k] = solve_block(grid, k, a, !domain.settings.consistent_inertia); });
+  if (domain.settings.consistent_inertia)
   {
-    for (const auto& boundary : domain.boundaries) boundary->apply_dashpots(domain, dt);
-    correct_inertia(domain, dt);
-    hold_resting_nodes(domain);
+    for (const auto& boundary : domain.boundaries) boundary->apply_dashpots(grid, dt);
+    correct_inertia(grid, dt);
+    for (const auto& boundary : domain.boundaries) boundary->mirror_velocities(grid);
+    hold_nodes(grid, domain.rest.held);
     grid.for_each_block([&](int k) { works[k] = corrected_work(grid, k, a); });
   }
   domain.energy.step = sum_of(works, dt);
-  if (domain.force_balance_wanted) domain.force_balance = balance_of(domain, cell_mass);
+  if (domain.settings.measure_force_balance) domain.measures.force_balance = balance_of(domain, cell_mass);
 }
 } // namespace mpm

@@ -27,13 +27,13 @@ bool finite(const std::vector<double>& values)
 std::string place_particles(Domain& domain, std::size_t total)
 {
   const Particles& p = domain.particles;
-  domain.place.assign(total, -1);
+  domain.particles.index_of.assign(total, -1);
   for (std::size_t k = 0; k < p.id.size(); ++k)
   {
     const std::int64_t id = p.id[k];
     if (id < 0 || id >= std::int64_t(total)) return "there is no particle with the id " + std::to_string(id);
-    if (domain.place[id] >= 0) return particle(id) + "is there twice";
-    domain.place[id] = static_cast<int>(k);
+    if (domain.particles.index_of[id] >= 0) return particle(id) + "is there twice";
+    domain.particles.index_of[id] = static_cast<int>(k);
   }
   return {};
 }
@@ -56,13 +56,13 @@ std::string tracers_problem(const Domain& domain)
 /// Particles have left once, and are not there any more.
 std::string departed_problem(const Domain& domain)
 {
-  if (domain.departed.size() + domain.particles.id.size() != domain.place.size())
+  if (domain.departed.size() + domain.particles.id.size() != domain.particles.index_of.size())
     return "those that are there and those that have left are not all particles";
-  std::vector<bool> left(domain.place.size(), false);
+  std::vector<bool> left(domain.particles.index_of.size(), false);
   for (const Departed& one : domain.departed)
   {
-    if (one.particle < 0 || std::size_t(one.particle) >= left.size() || domain.place[one.particle] >= 0 ||
-        left[one.particle])
+    if (one.particle < 0 || std::size_t(one.particle) >= left.size() ||
+        domain.particles.index_of[one.particle] >= 0 || left[one.particle])
       return particle(one.particle) + "cannot have left";
     left[one.particle] = true;
     if (one.material < 0 || std::size_t(one.material) >= domain.materials.size())
@@ -110,13 +110,13 @@ std::string homes_problem(const Domain& domain)
 {
   const Particles& p = domain.particles;
   std::vector<bool> held(p.size(), false);
-  for (std::size_t h = 0; h < domain.occupied_blocks.size(); ++h)
+  for (std::size_t h = 0; h < domain.blocks.occupied.size(); ++h)
   {
-    const OccupiedBlock& occupied = domain.occupied_blocks[h];
+    const OccupiedBlock& occupied = domain.blocks.occupied[h];
     if (std::abs(occupied.block.x) > farthest_block || std::abs(occupied.block.y) > farthest_block ||
         (domain.grid.wrapped && occupied.block.x != 0))
       return "occupied_blocks name a block far off";
-    if (h > 0 && !(domain.occupied_blocks[h - 1].block < occupied.block))
+    if (h > 0 && !(domain.blocks.occupied[h - 1].block < occupied.block))
       return "occupied_blocks are not in the order of their blocks";
     for (const Range& range : occupied.ranges)
     {
@@ -135,8 +135,8 @@ std::string homes_problem(const Domain& domain)
   }
   for (int k = 0; k < p.size(); ++k)
     if (!held[k]) return "occupied_blocks do not hold " + particle(p.id[k]);
-  if (!(domain.drift >= 0 && domain.drift <= greatest_drift))
-    return "drift is " + std::to_string(domain.drift);
+  if (!(domain.blocks.drift >= 0 && domain.blocks.drift <= greatest_drift))
+    return "drift is " + std::to_string(domain.blocks.drift);
   return {};
 }
 } // namespace

@@ -25,7 +25,7 @@ void wrap(Domain& domain)
 
 void find_diverged(const Domain& domain)
 {
-  if (domain.greatest_move <= move_limit && std::isfinite(domain.energy.step.work)) return;
+  if (domain.measures.greatest_move <= move_limit && std::isfinite(domain.energy.step.work)) return;
   throw Diverged(
       domain.name +
       ": a particle moves more than a quarter of a cell, or is deformed wholly, in the step at t = " +
@@ -35,19 +35,19 @@ void find_diverged(const Domain& domain)
 
 void step(Domain& domain, double dt)
 {
-  domain.times.start();
-  if (domain.drift > drift_limit - move_limit) sort_particles(domain);
-  domain.times.lap(Phase::sort);
+  domain.measures.times.start();
+  if (domain.blocks.drift > drift_limit - move_limit) sort_particles(domain);
+  domain.measures.times.lap(Phase::sort);
   particles_to_grid(domain, dt); // (a) mass, momentum and forces to the grid
   solve_grid(domain, dt);        // (b) equation of motion
-  domain.times.lap(Phase::grid);
+  domain.measures.times.lap(Phase::grid);
   account(domain, dt); //     its work, for the energy balance
-  domain.times.lap(Phase::boundaries);
-  if (domain.average_volume) average_volume_changes(domain, dt);
+  domain.measures.times.lap(Phase::boundaries);
+  if (domain.settings.average_volume) average_volume_changes(domain, dt);
   grid_to_particles(domain, dt); // (c) velocities back to the particles, (d) deformation and stress
   find_diverged(domain);
-  domain.drift += domain.greatest_move;
+  domain.blocks.drift += domain.measures.greatest_move;
   if (domain.grid.wrapped) wrap(domain);
-  domain.times.lap(Phase::gather);
+  domain.measures.times.lap(Phase::gather);
 }
 } // namespace mpm

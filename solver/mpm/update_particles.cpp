@@ -67,6 +67,6 @@ void update_particles(Domain& domain, int material, int begin, int count, const 
   std::array<double*, most_state_fields> state{};
   for (std::size_t k = 0; k < m.state.size(); ++k)
     state[k] = &m.state[k][begin - domain.material_begin[material]];
-  std::visit([&](const auto& law) { law.update(stress, state.data(), domain.plastic); }, m.law);
+  std::visit([&](const auto& law) { law.update(stress, state.data(), domain.settings.plastic); }, m.law);
 }
 } // namespace mpm

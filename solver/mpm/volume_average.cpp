@@ -96,10 +96,10 @@ void average_volume_changes(Domain& domain, double dt)
     if (domain.materials[m].state_fields().empty()) continue;
     sums.mass.assign(domain.grid.nodes(), 0.0);
     sums.change.assign(domain.grid.nodes(), 0.0);
-    parallel::for_each_in_turn(domain.colours,
-                               [&](int k) { add_home(domain, domain.occupied_blocks[k], m, scratch, sums); });
-    parallel::for_each(domain.awake,
-                       [&](int k) { apply_home(domain, domain.occupied_blocks[k], m, scratch, sums, dt); });
+    parallel::for_each_in_turn(domain.blocks.colours,
+                               [&](int k) { add_home(domain, domain.blocks.occupied[k], m, scratch, sums); });
+    parallel::for_each(domain.blocks.awake,
+                       [&](int k) { apply_home(domain, domain.blocks.occupied[k], m, scratch, sums, dt); });
   }
 }
 } // namespace mpm

@@ -14,7 +14,7 @@ constexpr double base_drift_limit = 0.1; // cells that the base may end away fro
 void report_base(Session& session, const Model& model)
 {
   if (!model.base) return;
-  const BaseDrift drift = model.base->drift(*model.main, free_field_base(model));
+  const BaseDrift drift = model.base->drift(model.main->particles, free_field_base(model));
   const auto& [left, right] = drift.corner;
   session.log.info(
       "base at the end, relative to the free field: left end {:+.4f} m across and {:+.4f} m up, right "
@@ -52,7 +52,7 @@ void report_boundaries(Session& session, const Model& model)
   report_base(session, model);
   for (const FreeFieldSide* side : model.sides)
   {
-    const double apart = side->separation(*model.main);
+    const double apart = side->separation(model.main->particles);
     session.log.info("{} side: up to {:.3f} m apart from its column at the end", side->name(), apart);
     if (apart > 0.5 * session.case_file.grid.spacing)
       session.log.warn(

@@ -38,7 +38,7 @@ SideLine line_of(const FreeFieldSide& side, const Domain& domain, double size)
   double last = NAN; // displacement of the face below
   for (const Face& face : side.faces())
   {
-    const int k = domain.place[face.particle];
+    const int k = domain.particles.index_of[face.particle];
     const double u = p.x[k] - p.reference_x[k];
     if (std::fabs(u - last) > size) break;
     last = u;
@@ -69,7 +69,7 @@ struct Edges
     if (model.base)
       for (const Face& face : model.base->faces())
       {
-        const int k = main.place[face.particle];
+        const int k = main.particles.index_of[face.particle];
         moved.push_back({p.x[k] - p.reference_x[k], p.y[k] - p.reference_y[k]});
       }
     if (model.base) base = case_file.domain.bottom;
@@ -144,7 +144,7 @@ std::vector<Leaving> Departures::find() const
   const Edges edges(model_, session_.case_file);
   const Particles& p = main.particles;
   std::vector<Leaving> leaving;
-  for (const OccupiedBlock& occupied : main.occupied_blocks)
+  for (const OccupiedBlock& occupied : main.blocks.occupied)
   {
     if (!may_have_passed(edges, main.grid, occupied.block)) continue;
     for (const Range& range : occupied.ranges)

@@ -128,7 +128,7 @@ Model make_model(const Case& case_file)
     model.right = make_column(case_file, materials, seeds, Edge::right);
   }
   model.for_each_domain([&](Domain& domain, const std::string&)
-                        { domain.average_volume = case_file.grid.average_volume; });
+                        { domain.settings.average_volume = case_file.grid.average_volume; });
   return model;
 }
 
@@ -140,7 +140,7 @@ void add_static_boundaries(Model& model, const Case& case_file)
         std::vector<Wall> walls{bottom_wall()};
         if (column.empty()) walls.insert(walls.end(), {left_wall(), right_wall(case_file)});
         add_walls(domain, walls);
-        domain.damping = case_file.static_stage.damping;
+        domain.settings.local_damping = case_file.static_stage.damping;
         rebuild(domain);
       });
 }
@@ -160,10 +160,10 @@ void add_seismic_boundaries(Model& model, const Case& case_file, std::shared_ptr
           auto& walls = roller ? staying : leaving;
           walls.insert(walls.end(), {left_wall(), right_wall(case_file)});
         }
-        domain.damping = 0;
-        domain.consistent_inertia = case_file.seismic.inertia == Inertia::consistent;
-        domain.gravity_y = -case_file.static_stage.gravity;
-        domain.plastic = true;
+        domain.settings.local_damping = 0;
+        domain.settings.consistent_inertia = case_file.seismic.inertia == Inertia::consistent;
+        domain.settings.gravity_y = -case_file.static_stage.gravity;
+        domain.settings.plastic = true;
         // A column goes where the input takes it, with nothing on one side of it that could push it away.
         const BaseSpring spring(column.empty() ? spring_time(case_file) : 0);
         CompliantBase* const base =
@@ -230,7 +230,7 @@ void advance(Model& model, double time, double dt)
   {
     if (c) c->advance(time, dt);
   };
-  model.main->times.start();
+  model.main->measures.times.start();
   if (model.left && model.right)
     parallel::together([&] { column(model.left.get()); }, [&] { column(model.right.get()); });
   else
@@ -238,7 +238,7 @@ void advance(Model& model, double time, double dt)
     column(model.left.get());
     column(model.right.get());
   }
-  model.main->times.lap(Phase::columns);
+  model.main->measures.times.lap(Phase::columns);
   model.main->time = time;
   step(*model.main, dt);
 }

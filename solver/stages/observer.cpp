@@ -222,7 +222,7 @@ void Observer::sample_energy()
 void Observer::sample_base()
 {
   if (!model_.base) return;
-  const BaseDrift drift = model_.base->drift(*model_.main, free_field_base(model_));
+  const BaseDrift drift = model_.base->drift(model_.main->particles, free_field_base(model_));
   const auto& [left, right] = drift.corner;
   history_.record(corner_, std::array{left[0], left[1], right[0], right[1]});
   history_.record(rotation_, drift.rotation);
@@ -305,7 +305,7 @@ nlohmann::json Observer::summary() const
   }
   nlohmann::json result{{"slide", slide_.summary()}, {"gauges", gauges}};
   if (!model_.base) return result;
-  const BaseDrift drift = model_.base->drift(*model_.main, free_field_base(model_));
+  const BaseDrift drift = model_.base->drift(model_.main->particles, free_field_base(model_));
   result["base"] = {{"corner_displacement", {{"left", drift.corner[0]}, {"right", drift.corner[1]}}},
                     {"rotation", drift.rotation},
                     {"greatest_displacement", drift.greatest},

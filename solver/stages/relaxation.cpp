@@ -55,7 +55,7 @@ void Relaxation::set_phase(Phase phase)
   phase_ = phase;
   held_ = 0;
   model_.for_each_domain([&](Domain& domain, const std::string&)
-                         { domain.plastic = phase == Phase::plastic; });
+                         { domain.settings.plastic = phase == Phase::plastic; });
 }
 
 void Relaxation::load(const h5::File& file)
@@ -91,8 +91,8 @@ void Relaxation::step(Clock& clock, bool measure)
   model_.for_each_domain(
       [&](Domain& domain, const std::string&)
       {
-        domain.gravity_y = now;
-        domain.force_balance_wanted = measure;
+        domain.settings.gravity_y = now;
+        domain.settings.measure_force_balance = measure;
       });
   advance(model_, clock.time(), clock.dt);
   ++clock.step;
@@ -111,7 +111,7 @@ bool Relaxation::converged(const Clock& clock)
   const Convergence& until = session_.case_file.static_stage.until;
   unbalanced_ = kinetic_ = 0;
   model_.for_each_domain([&](Domain& domain, const std::string&)
-                         { unbalanced_ = std::max(unbalanced_, domain.force_balance.ratio()); });
+                         { unbalanced_ = std::max(unbalanced_, domain.measures.force_balance.ratio()); });
   kinetic_ = kinetic_energy(*model_.main) / weight_;
   if (clock.time() < session_.case_file.static_stage.ramp) return false;
   const double easier = phase_ == Phase::elastic && plasticity_ ? handover : 1;
@@ -141,7 +141,7 @@ std::string Relaxation::failure() const
 void Relaxation::report(const Clock& clock)
 {
   const auto [area, strain] = yielded(*model_.main);
-  const double speed = greatest_speed(*model_.main);
+  const double speed = greatest_speed(model_.main->particles);
   session_.log.info(
       "static state at t = {:.2f} s: unbalanced {:.2e}, kinetic {:.2e}, greatest speed {:.2e} m/s, "
       "yielded {:.1f} m2, greatest plastic strain {:.2e}",
@@ -155,8 +155,10 @@ int Relaxation::run(Clock& clock)
   const Convergence& until = session_.case_file.static_stage.until;
   Progress progress(session_.log, {"static", model_.main->particles.size(), parallel::threads(), clock.step,
                                    clock.time() / until.at_most});
-  const auto moment = [&] {
-    return Moment{clock.time(), NAN, clock.step, kinetic_energy(*model_.main), greatest_speed(*model_.main)};
+  const auto moment = [&]
+  {
+    return Moment{clock.time(), NAN, clock.step, kinetic_energy(*model_.main),
+                  greatest_speed(model_.main->particles)};
   };
   session_.log.info("static stage: {} particles, dt = {:.3e} s, gravity in {} s",
                     model_.main->particles.size(), clock.dt, session_.case_file.static_stage.ramp);
@@ -190,7 +192,7 @@ int Relaxation::run(Clock& clock)
   const auto [area, strain] = yielded(*model_.main);
   const nlohmann::json measures{{"unbalanced", unbalanced_},
                                 {"kinetic", kinetic_},
-                                {"greatest_speed", greatest_speed(*model_.main)},
+                                {"greatest_speed", greatest_speed(model_.main->particles)},
                                 {"yielded_area", area},
                                 {"greatest_plastic_strain", strain},
                                 {"energy", energy_.summary()}};

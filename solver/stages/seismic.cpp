@@ -117,7 +117,7 @@ private:
     const auto moment = [&]
     {
       return Moment{clock.time(), clock.time() / duration, clock.step, kinetic_energy(*model_.main),
-                    greatest_speed(*model_.main)};
+                    greatest_speed(model_.main->particles)};
     };
     report_wave_fidelity(session_, clock.dt, motion_.wave.get());
     if (model_.base)
@@ -132,7 +132,7 @@ private:
     while (!session_.at_end() && clock.time() < duration * (1 - 1e-9))
     {
       model_.for_each_domain([&](Domain& domain, const std::string&)
-                             { domain.flip_blend = flip_.at(clock.time()); });
+                             { domain.settings.flip_blend = flip_.at(clock.time()); });
       advance(model_, clock.time(), clock.dt);
       ++clock.step;
       const bool ended = take_out_departed(clock);
@@ -194,7 +194,7 @@ private:
     const auto [vx, vy] = motion_.wave->velocity(time);
     bool still = time >= motion_.wave->end() && vx == 0 && vy == 0;
     for (const FreeFieldColumn* column : {model_.left.get(), model_.right.get()})
-      still &= !column || greatest_speed(*column->domain) < below;
+      still &= !column || greatest_speed(column->domain->particles) < below;
     allow_rest(*model_.main, still ? below : 0);
   }
 
@@ -234,7 +234,7 @@ private:
       session_.log.info(
           "ground at rest: {:.1f} % of all particle-steps were skipped, {:.0f} % of the last one",
           100.0 * main.rest.skipped / (double(clock.step) * main.particles.size()),
-          100.0 - 100.0 * main.awake.shares.cost() / main.particles.size());
+          100.0 - 100.0 * main.blocks.awake.shares.cost() / main.particles.size());
   }
 
   void save(const std::string& name, const Clock& clock)

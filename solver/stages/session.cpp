@@ -106,7 +106,7 @@ void Session::write_checkpoint(const std::string& name, std::string_view stage, 
 void Session::loop_begins(std::int64_t step, const Model& model)
 {
   stop_at_a_step();
-  earlier_ = model.main->times.seconds();
+  earlier_ = model.main->measures.times.seconds();
   loop_start_ = Wall::now();
   first_step_ = step;
 }
@@ -141,7 +141,7 @@ void Session::finish(std::string_view stage, int exit, const Model& model, const
   std::string phases;
   for (std::size_t k = 0; k < phase_names.size(); ++k)
   {
-    const double cost = per_step * (model.main->times.seconds()[k] - earlier_[k]);
+    const double cost = per_step * (model.main->measures.times.seconds()[k] - earlier_[k]);
     summary["phases"][std::string(phase_names[k])] = cost;
     phases += fmt::format("{}{} {:.1f}", k ? ", " : "", phase_names[k], cost);
   }

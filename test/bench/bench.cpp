@@ -100,7 +100,7 @@ Model shaken_slope(int particles, Case& case_file)
           p.stress_yy[k] = -18e3 * depth;
           p.stress_xx[k] = p.stress_zz[k] = -9e3 * depth;
         }
-        domain.gravity_y = -case_file.static_stage.gravity;
+        domain.settings.gravity_y = -case_file.static_stage.gravity;
       });
   add_static_boundaries(model, case_file);
   auto wave = std::make_shared<IncomingWave>();
@@ -154,7 +154,7 @@ Run measure(int particles, int threads)
   malloc_trim(0);
   const double bytes = (resident() - before_scene) / count;
   const double unit = 1e9 * threads / (static_cast<double>(count) * batch);
-  const auto before = model.main->times.seconds();
+  const auto before = model.main->measures.times.seconds();
   std::vector<double> batches, floors;
   for (int round = 0; round < 5; ++round)
   {
@@ -166,7 +166,7 @@ Run measure(int particles, int threads)
   }
   Run run{count, threads, median(batches), median(floors), bytes, {}};
   for (std::size_t k = 0; k < run.phases.size(); ++k)
-    run.phases[k] = unit * (model.main->times.seconds()[k] - before[k]) / 5;
+    run.phases[k] = unit * (model.main->measures.times.seconds()[k] - before[k]) / 5;
   return run;
 }
 

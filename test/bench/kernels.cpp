@@ -38,7 +38,7 @@ void stencils(benchmark::State& state)
   const Particles& p = domain.particles;
   ChunkStencils chunk;
   for (auto _ : state)
-    for (const OccupiedBlock& occupied : domain.occupied_blocks)
+    for (const OccupiedBlock& occupied : domain.blocks.occupied)
       for_each_chunk(occupied,
                      [&](int, int begin, int count)
                      {
@@ -65,7 +65,7 @@ void grid(benchmark::State& state)
 void gather(benchmark::State& state)
 {
   Domain domain = ground(static_cast<int>(state.range(0)));
-  domain.flip_blend = static_cast<double>(state.range(1)) / 100;
+  domain.settings.flip_blend = static_cast<double>(state.range(1)) / 100;
   for (auto _ : state) grid_to_particles(domain, time_step);
   per_particle(state, domain.particles.size());
 }
@@ -75,7 +75,7 @@ void deformation_and_stress(benchmark::State& state)
   Domain domain = ground(static_cast<int>(state.range(0)));
   VelocityGradients still{};
   for (auto _ : state)
-    for (const OccupiedBlock& occupied : domain.occupied_blocks)
+    for (const OccupiedBlock& occupied : domain.blocks.occupied)
       for_each_chunk(occupied, [&](int material, int begin, int count)
                      { update_particles(domain, material, begin, count, still, time_step); });
   per_particle(state, domain.particles.size());

@@ -47,7 +47,8 @@ constexpr double height = 10, load = 1; // m, Pa
 Column loaded(char direction, double spring_time, double duration)
 {
   Column column(height, spring_time);
-  (direction == 'x' ? column.domain.gravity_x : column.domain.gravity_y) = load / (rock.density * height);
+  (direction == 'x' ? column.domain.settings.gravity_x : column.domain.settings.gravity_y) =
+      load / (rock.density * height);
   domains::run(column.domain, static_cast<int>(duration / column.step()), column.step());
   return column;
 }
@@ -74,7 +75,8 @@ TEST_CASE("under a lasting load F the spring lets the base go by about F T / (rh
   const char direction = GENERATE('x', 'y');
   const double time = 0.2;
   Column column(height, time);
-  (direction == 'x' ? column.domain.gravity_x : column.domain.gravity_y) = load / (rock.density * height);
+  (direction == 'x' ? column.domain.settings.gravity_x : column.domain.settings.gravity_y) =
+      load / (rock.density * height);
   const double way =
       load * time / (rock.density * (direction == 'x' ? rock.shear_speed() : rock.pressure_speed()));
   double furthest = 0, moved = 0;
@@ -137,7 +139,7 @@ TEST_CASE("the base's drift is its displacement beyond the free field's, between
     p.x[k] += 0.01 + 0.001 * p.reference_x[k]; // as the free field, whose sides differ
     p.y[k] += sunk + angle * (p.reference_x[k] - 10);
   }
-  const BaseDrift drift = base.drift(domain, {{0, {0.01, 0}}, {20, {0.03, 0}}});
+  const BaseDrift drift = base.drift(domain.particles, {{0, {0.01, 0}}, {20, {0.03, 0}}});
   CHECK(drift.half_length == Approx(9.75));
   CHECK(drift.rotation == Approx(angle));
   CHECK(std::fabs(drift.corner[0][0]) < 1e-12);

@@ -39,7 +39,7 @@ Wave standing_wave(bool shear, int cells, double courant, bool consistent = fals
   const double speed = shear ? law.shear_speed() : law.pressure_speed(), dt = courant / speed;
   Domain domain = make_domain({{law, {0, 0, 1, cells / 2.0}}});
   domain.grid.wrapped = true;
-  domain.consistent_inertia = consistent;
+  domain.settings.consistent_inertia = consistent;
   domain.boundaries.push_back(std::make_unique<MirroredWall>(Wall{Direction::y, 0, 1, false}));
   domain.boundaries.push_back(std::make_unique<MirroredWall>(Wall{Direction::y, cells / 2, -1, false}));
   sort_particles(domain);

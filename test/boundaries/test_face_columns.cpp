@@ -29,7 +29,7 @@ void put_on_base(Domain& domain, double strength, std::shared_ptr<const Incoming
     face.dashpot_x *= strength;
     face.dashpot_y *= strength;
   }
-  domain.consistent_inertia = true;
+  domain.settings.consistent_inertia = true;
   domain.boundaries.push_back(
       std::make_unique<CompliantBase>(std::move(faces), std::move(wave), BaseSpring(0)));
   sort_particles(domain);
@@ -55,7 +55,7 @@ double sent_back(double cells, bool consistent)
   Domain domain = make_domain({{rock, {0, 0, 1, height}}});
   domain.grid.wrapped = true;
   put_on_base(domain, 1, no_wave());
-  domain.consistent_inertia = consistent;
+  domain.settings.consistent_inertia = consistent;
   Particles& p = domain.particles;
   const auto pulse = [&](double y)
   {
@@ -92,7 +92,7 @@ TEST_CASE("A face's dashpots never give energy, however strong, wherever the fac
                offset = GENERATE(0.0, 0.37), flip = GENERATE(0.0, 0.9);
   CAPTURE(contrast, strength, offset, flip);
   Domain domain = ragged_ground(contrast, strength, offset);
-  domain.flip_blend = flip;
+  domain.settings.flip_blend = flip;
   const double dt = 0.78 / elastic(1e6 * contrast, 0.3, 2300).pressure_speed();
   const EnergyShares energy = energy_shares(domain, 1000, dt);
   CHECK(energy.greatest < 1 + 1e-6);

@@ -31,13 +31,13 @@ double difference(const std::vector<Wall>& walls, double gravity_x, double gravi
 {
   const Threads one(1);
   Domain folded = random_block();
-  folded.gravity_x = gravity_x;
-  folded.gravity_y = gravity_y;
+  folded.settings.gravity_x = gravity_x;
+  folded.settings.gravity_y = gravity_y;
   Domain freed = same_particles(folded);
   for (const Wall& wall : walls) folded.boundaries.push_back(std::make_unique<MirroredWall>(wall));
   sort_particles(folded);
   particles_to_grid(folded, 1e-3);
-  for (const auto& boundary : folded.boundaries) boundary->constrain(folded);
+  for (const auto& boundary : folded.boundaries) boundary->constrain(folded.grid);
 
   freed.boundaries.push_back(std::make_unique<FrozenImages>(make_images(folded, walls)));
   sort_particles(freed);
@@ -80,7 +80,7 @@ TEST_CASE("Only particles within four cells of a wall have images, corners three
   for (const Image& image : images.list) ++count[image.parent];
   for (int id = 0; id < p.size(); ++id)
   {
-    const int k = domain.place[id];
+    const int k = domain.particles.index_of[id];
     const double h = domain.grid.spacing;
     const bool base = p.y[k] < 9 * h, side = p.x[k] < h || p.x[k] > 7 * h;
     REQUIRE(count[id] == (base && side ? 3 : base || side ? 1 : 0));
@@ -92,8 +92,8 @@ TEST_CASE("An image stands opposite its parent and carries the mirrored stress a
   const Threads one(1);
   const double h = 1;
   Domain domain = make_domain({{elastic(), {2, 7, 0.5, 0.5}}}, h);
-  domain.gravity_x = 2;
-  domain.gravity_y = -9;
+  domain.settings.gravity_x = 2;
+  domain.settings.gravity_y = -9;
   Particles& p = domain.particles;
   p.stress_xx[0] = 3;
   p.stress_yy[0] = 5;
@@ -126,7 +126,7 @@ TEST_CASE("Images move with the body: their resultant stays when the body is shi
   const Threads one(1);
   const std::vector<Wall> all = walls(false, true);
   Domain domain = random_block();
-  domain.gravity_y = -9.81;
+  domain.settings.gravity_y = -9.81;
   domain.boundaries.push_back(std::make_unique<FrozenImages>(make_images(domain, all)));
   sort_particles(domain);
   const auto resultant = [&]
@@ -162,7 +162,7 @@ TEST_CASE("Images that sleeping ground hides leave the forces on waking ground a
     domain->boundaries.push_back(std::make_unique<FrozenImages>(make_images(*domain, base)));
   sort_particles(awake);
   sort_particles(half);
-  for (OccupiedBlock& occupied : half.occupied_blocks) occupied.asleep = occupied.block.x < 6;
+  for (OccupiedBlock& occupied : half.blocks.occupied) occupied.asleep = occupied.block.x < 6;
   bind_rest(half);
   particles_to_grid(awake, 1e-3);
   particles_to_grid(half, 1e-3);

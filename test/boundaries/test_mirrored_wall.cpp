@@ -43,8 +43,8 @@ TEST_CASE("A body that slides over many cells stays on its side of the wall", "[
   domain.boundaries.push_back(std::make_unique<MirroredWall>(Wall{Direction::y, 5, 1, true}));
   sort_particles(domain);
   set_velocity(domain, 10, 0);
-  domain.gravity_y = -9.81;
-  domain.damping = 0;
+  domain.settings.gravity_y = -9.81;
+  domain.settings.local_damping = 0;
   const double dt = 0.5 / elastic().pressure_speed();
   const int steps = 150;
   run(domain, steps, dt);

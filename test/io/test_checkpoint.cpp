@@ -17,12 +17,12 @@ TEST_CASE("Ground that rests goes on resting after a restart, to the last bit", 
   allow_rest(domain, 1e-3);
   const auto asleep = [](const Domain& d)
   {
-    return std::count_if(d.occupied_blocks.begin(), d.occupied_blocks.end(),
+    return std::count_if(d.blocks.occupied.begin(), d.blocks.occupied.end(),
                          [](const OccupiedBlock& occupied) { return occupied.asleep; });
   };
   run(domain, 45, dt); // neither at a look nor before the first
   REQUIRE(asleep(domain) > 0);
-  REQUIRE(asleep(domain) < static_cast<long>(domain.occupied_blocks.size()));
+  REQUIRE(asleep(domain) < static_cast<long>(domain.blocks.occupied.size()));
 
   h5::File file = h5::File::in_memory("checkpoint");
   save_domain(file, domain);

@@ -12,7 +12,7 @@ namespace
 Domain lone_particle()
 {
   Domain domain = domains::make_domain({{domains::mohr_coulomb(30, 0), {2, 20, 0.5, 0.5}, 0.5}}, 1);
-  domain.gravity_y = -9.81;
+  domain.settings.gravity_y = -9.81;
   return domain;
 }
 } // namespace
@@ -36,7 +36,7 @@ TEST_CASE("A particle that flies alone spreads no further than its spline reache
   CHECK(p.volume[0] == Approx(16).epsilon(1e-12));
   CHECK(p.velocity_x[0] == Approx(5));
   CHECK(p.velocity_y[0] == Approx(-9.81 * 2));
-  CHECK(greatest_speed(domain) < 25);
+  CHECK(greatest_speed(domain.particles) < 25);
 }
 
 TEST_CASE("Ground that is whole, or torn less than that, keeps its volume", "[mpm]")

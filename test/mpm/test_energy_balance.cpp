@@ -46,8 +46,8 @@ TEST_CASE("A falling block turns weight times height into kinetic energy", "[mpm
 {
   const Threads one(1);
   Domain domain = make_domain({{elastic(), {0.2, 0.4, 6, 5}}});
-  domain.gravity_x = 1;
-  domain.gravity_y = -9.81;
+  domain.settings.gravity_x = 1;
+  domain.settings.gravity_y = -9.81;
   open_energy_balance(domain);
   const double dt = 1e-3, mass = total(domain.particles.mass);
   run(domain, 400, dt);
@@ -115,8 +115,8 @@ TEST_CASE("A column that settles under its sudden weight gives half of its work 
   const Elastic law = elastic(1e9, 0.0);
   const double height = 10, g = 9.81;
   Domain domain = make_column(law, height);
-  domain.gravity_y = -g;
-  domain.damping = 0.75;
+  domain.settings.gravity_y = -g;
+  domain.settings.local_damping = 0.75;
   open_energy_balance(domain);
   const double stored = std::pow(law.density * g, 2) * std::pow(height, 3) / (6 * law.p_modulus());
   run(domain, 2000, 0.5 / law.pressure_speed());
@@ -137,13 +137,13 @@ TEST_CASE("Gravity that grows slowly does the work that the column stores, noted
   const Elastic law = elastic(1e9, 0.0);
   const double height = 10, g = 9.81, dt = 0.5 / law.pressure_speed();
   Domain domain = make_column(law, height);
-  domain.damping = 0.75;
+  domain.settings.local_damping = 0.75;
   open_energy_balance(domain);
   const double stored = std::pow(law.density * g, 2) * std::pow(height, 3) / (6 * law.p_modulus());
   constexpr int steps = 8000; // 100 periods 4 H / c
   for (int k = 0; k < steps; ++k)
   {
-    domain.gravity_y = -g * std::min(1.0, 2.0 * k / steps);
+    domain.settings.gravity_y = -g * std::min(1.0, 2.0 * k / steps);
     run(domain, 1, dt);
     if (k % 100 == 0) note_gravity(domain);
   }
@@ -192,8 +192,8 @@ TEST_CASE("One and three threads keep the same energy balance to the last bit", 
     const Threads use(threads);
     Domain domain = make_domain({{von_mises(2e3, 1e3, 0.1), {0.2, 0.4, 30, 20}}}, 1, 0.3, 7);
     random_velocities(domain, 1, 8);
-    domain.gravity_y = -9.81;
-    domain.damping = 0.3;
+    domain.settings.gravity_y = -9.81;
+    domain.settings.local_damping = 0.3;
     domain.boundaries.push_back(std::make_unique<MirroredWall>(Wall{Direction::y, 0, 1, false}));
     domain.boundaries.push_back(std::make_unique<MirroredWall>(Wall{Direction::x, 0, 1, true}));
     rebuild(domain);
@@ -226,7 +226,7 @@ TEST_CASE("A body before mirrored walls has a quarter of the energy balance of t
       domain.boundaries.push_back(std::make_unique<MirroredWall>(Wall{Direction::y, 0, 1, true}));
       rebuild(domain);
     }
-    domain.damping = 0.1;
+    domain.settings.local_damping = 0.1;
     open_energy_balance(domain);
     run(domain, 100, 0.4 / law.pressure_speed());
     return energies_of(domain);

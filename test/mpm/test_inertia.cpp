@@ -16,7 +16,7 @@ Domain ragged_block(double contrast)
   Domain domain = make_domain({{soft, {0.2, 0.4, 6, 3}}, {stiff, {0.2, 3.4, 6, 2}}}, 1, 0.3, 51);
   random_velocities(domain, 1e-3, 52);
   random_affine(domain, 1e-3, 53);
-  domain.consistent_inertia = true;
+  domain.settings.consistent_inertia = true;
   return domain;
 }
 
@@ -54,8 +54,8 @@ TEST_CASE("Consistent inertia leaves free fall and a lone particle as they are",
   {
     Domain domain = make_domain({{elastic(), {0.2, 0.4, lone ? 0.5 : 6, lone ? 0.5 : 5}}});
     if (lone) random_affine(domain, 1e-3, 33);
-    domain.gravity_y = -9.81;
-    domain.consistent_inertia = consistent;
+    domain.settings.gravity_y = -9.81;
+    domain.settings.consistent_inertia = consistent;
     run(domain, 200, 1e-3);
     return domain;
   };
@@ -75,7 +75,7 @@ TEST_CASE("With consistent inertia a ragged block of unlike halves never gains e
   const double contrast = GENERATE(1.0, 1e4), courant = GENERATE(0.3, 0.5, 0.78), flip = GENERATE(0.0, 0.9);
   CAPTURE(contrast, courant, flip);
   Domain domain = ragged_block(contrast);
-  domain.flip_blend = flip;
+  domain.settings.flip_blend = flip;
   const double dt = courant / std::max(elastic(1e6, 0.3, 1700).pressure_speed(),
                                        elastic(1e6 * contrast, 0.3, 2300).pressure_speed());
   const EnergyShares energy = energy_shares(domain, 1500, dt);
@@ -110,7 +110,7 @@ TEST_CASE("The energy balance of consistent inertia closes", "[mpm]")
     p.affine_xx[n] = -1e-3 * k * std::sin(k * p.x[n]) * std::cos(0.5 * k * p.y[n]);
     p.affine_xy[n] = -0.5e-3 * k * std::cos(k * p.x[n]) * std::sin(0.5 * k * p.y[n]);
   }
-  domain.consistent_inertia = true;
+  domain.settings.consistent_inertia = true;
   open_energy_balance(domain);
   const double start = kinetic_energy(domain), dt = 0.5 / elastic(1e7, 0.2).pressure_speed();
   double greatest_residual = 0, most_held = 0;

@@ -18,7 +18,7 @@ Domain collision()
   random_stress(domain, 1e3, 44);
   for (int k = 0; k < domain.particles.size(); ++k)
     domain.particles.velocity_x[k] += k < domain.material_begin[1] ? 3.0 : -2.0;
-  domain.gravity_y = -9.81;
+  domain.settings.gravity_y = -9.81;
   return domain;
 }
 
@@ -74,7 +74,7 @@ double difference_after(const Motion& motion, int steps)
   Domain still = collision();
   Domain moved = same_particles(still);
   apply(motion, moved.particles);
-  turn(motion, moved.gravity_x, moved.gravity_y);
+  turn(motion, moved.settings.gravity_x, moved.settings.gravity_y);
   sort_particles(moved);
   run(still, steps, step_size());
   run(moved, steps, step_size());
@@ -90,7 +90,8 @@ double difference_after(const Motion& motion, int steps)
       for (int other = 0; other < field.components; ++other)
         scale = std::max(scale, greatest(still.particles.*field.data[other]));
       for (std::size_t id = 0; id < a.size(); ++id)
-        worst = std::max(worst, std::fabs(a[still.place[id]] - b[moved.place[id]]) / scale);
+        worst = std::max(worst, std::fabs(a[still.particles.index_of[id]] - b[moved.particles.index_of[id]]) /
+                                    scale);
     }
   }
   return worst;
@@ -105,7 +106,7 @@ TEST_CASE("One, two and three threads give the same particles to the last bit", 
     const Threads now(threads);
     Domain domain = collision();
     const std::vector<std::int64_t> order = domain.particles.id;
-    REQUIRE(domain.occupied_blocks.size() >= 6);
+    REQUIRE(domain.blocks.occupied.size() >= 6);
     run(domain, 300, step_size());
     REQUIRE(domain.particles.id != order); // sorted on the way
     results.push_back(std::move(domain));
@@ -123,13 +124,13 @@ TEST_CASE("A domain rebuilt from particles, occupied_blocks and drift goes on as
   {
     Domain whole = collision();
     run(whole, steps, step_size());
-    if (steps > 0) REQUIRE(whole.drift > 0);
+    if (steps > 0) REQUIRE(whole.blocks.drift > 0);
     Domain resumed = same_particles(whole);
-    for (const OccupiedBlock& occupied : whole.occupied_blocks)
-      resumed.occupied_blocks.push_back({occupied.block, {}, occupied.ranges});
-    resumed.drift = whole.drift;
+    for (const OccupiedBlock& occupied : whole.blocks.occupied)
+      resumed.blocks.occupied.push_back({occupied.block, {}, occupied.ranges});
+    resumed.blocks.drift = whole.blocks.drift;
     rebuild(resumed);
-    CHECK(resumed.place == whole.place);
+    CHECK(resumed.particles.index_of == whole.particles.index_of);
     CHECK(resumed.grid.blocks == whole.grid.blocks);
     run(whole, 150, step_size());
     run(resumed, 150, step_size());
@@ -147,18 +148,18 @@ TEST_CASE("Sorting keeps every particle whole and its place by id", "[mpm]")
   std::vector<double>& strain = domain.materials[1].state[0];
   for (std::size_t k = 0; k < strain.size(); ++k)
     strain[k] = 1 + static_cast<double>(p.id[domain.material_begin[1] + k]);
-  domain.plastic = false;
+  domain.settings.plastic = false;
   run(domain, 100, step_size());
   sort_particles(domain);
   for (int k = 0; k < p.size(); ++k)
   {
-    REQUIRE(domain.place[p.id[k]] == k);
+    REQUIRE(domain.particles.index_of[p.id[k]] == k);
     REQUIRE(p.reference_x[k] == static_cast<double>(p.id[k]));
   }
   for (std::size_t k = 0; k < strain.size(); ++k)
     REQUIRE(strain[k] == 1 + static_cast<double>(p.id[domain.material_begin[1] + k]));
   int next = 0;
-  for (const OccupiedBlock& occupied : domain.occupied_blocks)
+  for (const OccupiedBlock& occupied : domain.blocks.occupied)
     for (const Range& range : occupied.ranges)
     {
       next += range.end - range.begin;

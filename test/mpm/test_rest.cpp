@@ -24,7 +24,7 @@ Domain bar()
 int sleeping(const Domain& domain)
 {
   int count = 0;
-  for (const OccupiedBlock& occupied : domain.occupied_blocks) count += occupied.asleep;
+  for (const OccupiedBlock& occupied : domain.blocks.occupied) count += occupied.asleep;
   return count;
 }
 
@@ -32,7 +32,8 @@ double difference(const Domain& a, const Domain& b, std::vector<double> Particle
 {
   double worst = 0;
   for (int id = 0; id < a.particles.size(); ++id)
-    worst = std::max(worst, std::fabs((a.particles.*field)[a.place[id]] - (b.particles.*field)[b.place[id]]));
+    worst = std::max(worst, std::fabs((a.particles.*field)[a.particles.index_of[id]] -
+                                      (b.particles.*field)[b.particles.index_of[id]]));
   return worst;
 }
 } // namespace
@@ -50,11 +51,12 @@ TEST_CASE("Ground at rest is skipped, wakes before a wave, and misses no more th
     run(whole, 1, time_step);
     run(rested, 1, time_step);
     most_asleep = std::max(most_asleep, sleeping(rested));
-    for (const OccupiedBlock& occupied : rested.occupied_blocks)
+    for (const OccupiedBlock& occupied : rested.blocks.occupied)
       for (const Range& range : occupied.ranges)
         if (occupied.asleep)
           for (int q = range.begin; q < range.end; ++q)
-            ahead += std::fabs(whole.particles.velocity_x[whole.place[rested.particles.id[q]]]) > 2 * below;
+            ahead += std::fabs(whole.particles.velocity_x[whole.particles.index_of[rested.particles.id[q]]]) >
+                     2 * below;
   }
   CHECK(most_asleep >= 5);
   CHECK(rested.rest.skipped > 0.15 * steps * rested.particles.size());
@@ -73,13 +75,13 @@ TEST_CASE("Nothing rests before it is allowed to, and all wakes when it no longe
   const int window = static_cast<int>(std::ceil(Rest::window / time_step)) + 1;
   run(domain, 3 * window, time_step);
   CHECK(sleeping(domain) == 0);
-  domain.gravity_y = -1e-6; // a gauge in ground that is there does not fall
+  domain.settings.gravity_y = -1e-6; // a gauge in ground that is there does not fall
   domain.gauges.push_back({20, 4, 20, 4});
   allow_rest(domain, below);
   run(domain, window, time_step);
   CHECK(sleeping(domain) == 0); // a second has to be watched from its beginning
   run(domain, window, time_step);
-  CHECK(sleeping(domain) == static_cast<int>(domain.occupied_blocks.size()));
+  CHECK(sleeping(domain) == static_cast<int>(domain.blocks.occupied.size()));
   domain.particles.velocity_y.assign(domain.particles.size(), 1);
   run(domain, 1, time_step);
   CHECK(greatest(domain.particles.y) < 8); // asleep, whatever it is told

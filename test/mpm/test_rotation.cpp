@@ -30,12 +30,12 @@ Spun spin(double rate, double turns)
   const double dt = 0.5 / elastic().pressure_speed(), unit = 2000 * rate * rate * 8;
   const double reference = p.volume[0];
   Spun result;
-  double angle = std::atan2(p.y[domain.place[0]], p.x[domain.place[0]]), turned = 0;
+  double angle = std::atan2(p.y[domain.particles.index_of[0]], p.x[domain.particles.index_of[0]]), turned = 0;
   const int most = static_cast<int>(1.2 * turns * 2 * std::numbers::pi / (rate * dt));
   for (int k = 0; k < most && turned < turns * 2 * std::numbers::pi; ++k)
   {
     step(domain, dt);
-    const double now = std::atan2(p.y[domain.place[0]], p.x[domain.place[0]]);
+    const double now = std::atan2(p.y[domain.particles.index_of[0]], p.x[domain.particles.index_of[0]]);
     turned += std::remainder(now - angle, 2 * std::numbers::pi);
     angle = now;
     const double stress =

@@ -31,8 +31,8 @@ TEST_CASE("The grid follows a body over a kilometre and leaves nothing behind", 
   set_velocity(domain, 100, -35);
   run(domain, 5000, dt); // 1000 m in x, 350 m down
   const Particles& p = domain.particles;
-  CHECK(p.x[domain.place[0]] == Approx(1002.25).epsilon(1e-12));
-  CHECK(p.y[domain.place[0]] == Approx(-347.75).epsilon(1e-12));
+  CHECK(p.x[domain.particles.index_of[0]] == Approx(1002.25).epsilon(1e-12));
+  CHECK(p.y[domain.particles.index_of[0]] == Approx(-347.75).epsilon(1e-12));
   CHECK(domain.grid.blocks.size() <= 16); // 9, and more when it straddles block edges
   for (int k = 0; k < p.size(); ++k)
     for (const int reach : {-1, 2})
@@ -48,7 +48,7 @@ TEST_CASE("Mass and momentum on the grid are those of the particles", "[mpm]")
   const Threads two(2);
   Domain domain = make_domain({{elastic(), {-9.3, -3.2, 19, 11}}}, 1, 0.4, 51);
   random_velocities(domain, 1, 52);
-  domain.gravity_y = -9.81;
+  domain.settings.gravity_y = -9.81;
   for (int repeated = 0; repeated < 2; ++repeated) // the second time the grid must have been cleared
   {
     particles_to_grid(domain, 1e-3);

@@ -108,9 +108,9 @@ TEST_CASE("A squeezed particle is named", "[mpm]")
   Domain domain = shaken_block();
   std::vector<double> reference(domain.particles.size(), 0.25);
   CHECK_NOTHROW(check_particles(domain, reference));
-  domain.particles.volume[domain.place[17]] = 0.02;
+  domain.particles.volume[domain.particles.index_of[17]] = 0.02;
   CHECK_THROWS_WITH(check_particles(domain, reference), Catch::Contains("particle 17 at"));
-  domain.particles.volume[domain.place[17]] = 0.25;
-  domain.particles.stress_zz[domain.place[18]] = INFINITY;
+  domain.particles.volume[domain.particles.index_of[17]] = 0.25;
+  domain.particles.stress_zz[domain.particles.index_of[18]] = INFINITY;
   CHECK_THROWS_WITH(check_particles(domain, reference), Catch::Contains("particle 18 at"));
 }

@@ -74,8 +74,8 @@ TEST_CASE("A single particle flies on the discrete parabola for 10 s, and its sp
   p.velocity_y[0] = 50;
   p.affine_xy[0] = -0.1;
   p.affine_yx[0] = 0.1; // a spin does not strain
-  domain.gravity_x = 0.5;
-  domain.gravity_y = -9.81;
+  domain.settings.gravity_x = 0.5;
+  domain.settings.gravity_y = -9.81;
   const double dt = 1e-3, x = p.x[0], y = p.y[0];
   run(domain, 10000, dt);
   const double t = 10;
@@ -98,26 +98,29 @@ TEST_CASE("Two particles that approach feel nothing beyond four cells, and each 
   Particles& p = domain.particles;
   REQUIRE(p.size() == 2);
   const double dt = 0.3 / elastic().pressure_speed(), speed = 0.01 / dt;
-  const int left = domain.place[0], right = domain.place[1];
+  const int left = domain.particles.index_of[0], right = domain.particles.index_of[1];
   p.velocity_x[left] = speed;
   p.velocity_x[right] = -speed;
   double change = 0, stress = 0;
   int steps = 0;
-  for (; p.x[domain.place[1]] - p.x[domain.place[0]] > 4; ++steps)
+  for (; p.x[domain.particles.index_of[1]] - p.x[domain.particles.index_of[0]] > 4; ++steps)
   {
     step(domain, dt);
     // The last step took its forces and velocities from places more than four cells apart.
-    change = std::max({change, std::fabs(p.velocity_x[domain.place[0]] / speed - 1),
-                       std::fabs(p.velocity_x[domain.place[1]] / speed + 1)});
+    change = std::max({change, std::fabs(p.velocity_x[domain.particles.index_of[0]] / speed - 1),
+                       std::fabs(p.velocity_x[domain.particles.index_of[1]] / speed + 1)});
     stress = std::max({stress, greatest(p.stress_xx), greatest(p.stress_yy), greatest(p.stress_xy)});
   }
   CHECK(steps > 98);
   CHECK(change < 1e-13);                   // round-off of 100 steps
   CHECK(stress / elastic().young < 1e-13); // strain increments of 0.01 times round-off
-  while (p.x[domain.place[1]] - p.x[domain.place[0]] > 2 && ++steps < 1000) step(domain, dt);
-  CHECK(p.velocity_x[domain.place[0]] < 0.99 * speed);
+  while (p.x[domain.particles.index_of[1]] - p.x[domain.particles.index_of[0]] > 2 && ++steps < 1000)
+    step(domain, dt);
+  CHECK(p.velocity_x[domain.particles.index_of[0]] < 0.99 * speed);
   // What one loses the other does too.
-  CHECK(std::fabs(p.velocity_x[domain.place[0]] + p.velocity_x[domain.place[1]]) / speed < 1e-13);
+  CHECK(std::fabs(p.velocity_x[domain.particles.index_of[0]] + p.velocity_x[domain.particles.index_of[1]]) /
+            speed <
+        1e-13);
 }
 
 TEST_CASE("Particles that have left their cells since the sort read what the definition says, each by itself",
@@ -127,7 +130,7 @@ TEST_CASE("Particles that have left their cells since the sort read what the def
   const double blend = GENERATE(0.0, 0.4), h = 0.8, dt = 1e-3;
   // 21 x 11 particles: stretches of a block end within a vector of particles.
   Domain domain = make_domain({{elastic(1e-6), {-3 * h, h, 7 * h, 3.6667 * h}, h / 3}}, h, 0.4, 51);
-  domain.flip_blend = blend;
+  domain.settings.flip_blend = blend;
   random_velocities(domain, 1, 52);
   particles_to_grid(domain, dt);
   solve_grid(domain, dt);

@@ -20,8 +20,8 @@ Domain collision(bool averaged)
   random_stress(domain, 1e3, 53);
   for (int k = 0; k < domain.particles.size(); ++k)
     domain.particles.velocity_x[k] += k < domain.material_begin[1] ? 3.0 : -2.0;
-  domain.gravity_y = -9.81;
-  domain.average_volume = averaged;
+  domain.settings.gravity_y = -9.81;
+  domain.settings.average_volume = averaged;
   return domain;
 }
 
@@ -44,7 +44,7 @@ struct Step
   explicit Step(bool averaged) : domain(make_domain({{von_mises(1e9, 1e9, 1), {-6, -6, 12, 12}}}, 1, 0.4, 61))
   {
     random_velocities(domain, 1, 62);
-    domain.average_volume = averaged;
+    domain.settings.average_volume = averaged;
     const Particles& p = domain.particles;
     for (int k = 0; k < p.size(); ++k)
       cells[{static_cast<int>(std::floor(p.x[k])), static_cast<int>(std::floor(p.y[k]))}].push_back(k);
@@ -97,7 +97,7 @@ TEST_CASE("Averaging leaves materials that cannot yield as they are, to the last
   {
     results.push_back(make_domain({{elastic(), {-6, -6, 12, 12}}}, 1, 0.4, 71));
     random_velocities(results.back(), 0.5, 72);
-    results.back().average_volume = averaged;
+    results.back().settings.average_volume = averaged;
     run(results.back(), 50, 0.5 / elastic().pressure_speed());
   }
   CHECK(identical(results[0], results[1]));
@@ -118,12 +118,12 @@ TEST_CASE("Averaged volume changes are the same to the last bit on any threads a
 
   const Threads one(1);
   Domain& whole = results[0];
-  REQUIRE(whole.drift > 0); // particles stand in other cells than when they were sorted
+  REQUIRE(whole.blocks.drift > 0); // particles stand in other cells than when they were sorted
   Domain resumed = same_particles(whole);
-  resumed.average_volume = true;
-  for (const OccupiedBlock& occupied : whole.occupied_blocks)
-    resumed.occupied_blocks.push_back({occupied.block, {}, occupied.ranges});
-  resumed.drift = whole.drift;
+  resumed.settings.average_volume = true;
+  for (const OccupiedBlock& occupied : whole.blocks.occupied)
+    resumed.blocks.occupied.push_back({occupied.block, {}, occupied.ranges});
+  resumed.blocks.drift = whole.blocks.drift;
   rebuild(resumed);
   run(whole, 100, step_size());
   run(resumed, 100, step_size());
@@ -141,7 +141,7 @@ TEST_CASE("The energy balance closes with averaged volume changes as it does wit
     Domain domain = make_domain({{von_mises(1e9, 1e9, 1), {-6, -6, 12, 12}}}, 1);
     for (int k = 0; k < domain.particles.size(); ++k)
       domain.particles.velocity_x[k] = 0.1 * std::sin(0.26 * domain.particles.x[k]);
-    domain.average_volume = averaged;
+    domain.settings.average_volume = averaged;
     open_energy_balance(domain);
     run(domain, 1000, 0.1 / domain.materials[0].elastic().pressure_speed());
     const Energies balance = energies_of(domain);

@@ -99,8 +99,9 @@ inline void relax(Model& model, const Case& case_file, double duration, bool gro
   {
     const double s = grow ? std::min(1.0, 2 * k * dt / duration) : 1;
     model.for_each_domain(
-        [&](Domain& domain, const std::string&)
-        { domain.gravity_y = -case_file.static_stage.gravity * s * s * s * (10 + s * (6 * s - 15)); });
+        [&](Domain& domain, const std::string&) {
+          domain.settings.gravity_y = -case_file.static_stage.gravity * s * s * s * (10 + s * (6 * s - 15));
+        });
     advance(model, k * dt, dt);
   }
 }

@@ -89,7 +89,8 @@ TEST_CASE("a side's own ground leaves when it is a cell beyond it, not before", 
   CHECK(ground.area(edge) == Approx(beyond > 1 ? 2 * 0.25 : 0)); // two rows, one particle each
   CHECK(ground.area(Edge::bottom) == 0);
   CHECK(ground.area_here() + ground.area(edge) == Approx(total));
-  for (const int place : ground.model.main->place) CHECK(place < ground.model.main->particles.size());
+  for (const int place : ground.model.main->particles.index_of)
+    CHECK(place < ground.model.main->particles.size());
 }
 
 TEST_CASE("debris from elsewhere leaves as soon as it has passed a side", "[stages]")

@@ -80,7 +80,7 @@ Shaken shake(Model& model, const Case& case_file, const IncomingWave& wave, doub
     input[1] += 2 * vy * dt;
     result.greatest_input = std::max(result.greatest_input, std::hypot(input[0], input[1]));
   }
-  result.drift = model.base->drift(*model.main, {{0, input}});
+  result.drift = model.base->drift(model.main->particles, {{0, input}});
   return result;
 }
 
@@ -155,7 +155,7 @@ TEST_CASE("ground of different height at its sides stays still without input (34
   Model model = make_model(case_file);
   relax(model, case_file, 30, true);
   const BaseDrift drift = shake(model, case_file, {}, 20).drift;
-  const double speed = greatest_speed(*model.main);
+  const double speed = greatest_speed(model.main->particles);
   INFO("base off by " << drift.greatest << " m, speed " << speed);
   CHECK(drift.greatest < 1e-4 * case_file.grid.spacing);
   CHECK(speed * 20 < 1e-4 * case_file.grid.spacing);

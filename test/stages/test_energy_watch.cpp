@@ -120,7 +120,7 @@ TEST_CASE("level ground has its column's energy balance, times its width, and no
     {
       const double s = std::min(1.0, k * dt / 3);
       model.for_each_domain([&](Domain& domain, const std::string&)
-                            { domain.gravity_y = -gravity * s * s * s * (10 + s * (6 * s - 15)); });
+                            { domain.settings.gravity_y = -gravity * s * s * s * (10 + s * (6 * s - 15)); });
       advance(model, k * dt, dt);
     }
   }

@@ -18,7 +18,7 @@ TEST_CASE("level ground under gravity stays still without input (16, shortened)"
   for (int k = 0; k * dt < 5; ++k)
   {
     advance(model, k * dt, dt);
-    speed = std::max(speed, greatest_speed(*model.main));
+    speed = std::max(speed, greatest_speed(model.main->particles));
   }
   const Particles& p = model.main->particles;
   double moved = 0;
@@ -77,7 +77,8 @@ TEST_CASE("gravity adds nothing to the motion of a base that moves over the grid
     {
       advance(model, k * dt, dt);
       if (k % 20 == 0)
-        for (const int place : model.main->place) velocity.push_back(model.main->particles.velocity_y[place]);
+        for (const int place : model.main->particles.index_of)
+          velocity.push_back(model.main->particles.velocity_y[place]);
     }
     return velocity;
   };
@@ -105,7 +106,7 @@ TEST_CASE("level ground stays still after the switch whatever its base and sides
   for (int k = 0; k * dt < 1; ++k)
   {
     advance(model, k * dt, dt);
-    speed = std::max(speed, greatest_speed(*model.main));
+    speed = std::max(speed, greatest_speed(model.main->particles));
   }
   INFO(base << " base, " << sides << " sides: " << speed << " m/s");
   CHECK(speed < 1e-6); // METHODS test 16

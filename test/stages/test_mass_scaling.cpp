@@ -23,7 +23,7 @@ Settled settled(const Case& case_file, bool scaled)
   result.step = stable_step(case_file, result.model);
   relax(result.model, case_file, 6, true);
   Domain& main = *result.model.main;
-  main.force_balance_wanted = true;
+  main.settings.measure_force_balance = true;
   advance(result.model, 6, result.step);
   return result;
 }
@@ -40,14 +40,14 @@ TEST_CASE("scaled masses settle soil on rock to the same state in longer steps",
                soil = case_file.materials[1].elastic().pressure_speed();
   CHECK(scaled.step / plain.step == Approx(rock / soil).epsilon(0.01)); // densities of now differ by strains
 
-  CHECK(a.force_balance.ratio() < 1e-5);
-  CHECK(b.force_balance.ratio() < 1e-5);
+  CHECK(a.measures.force_balance.ratio() < 1e-5);
+  CHECK(b.measures.force_balance.ratio() < 1e-5);
   // Two states, each in balance to 1e-5 of the weight, differ by about as much: stress here, settlement
   // below.
   double stress = 0, settlement = 0, stress_scale = 0, settlement_scale = 0;
   for (int id = 0; id < a.particles.size(); ++id)
   {
-    const int k = a.place[id], l = b.place[id];
+    const int k = a.particles.index_of[id], l = b.particles.index_of[id];
     stress_scale = std::max(stress_scale, std::fabs(a.particles.stress_yy[k]));
     stress = std::max(stress, std::fabs(a.particles.stress_yy[k] - b.particles.stress_yy[l]));
     settlement_scale = std::max(settlement_scale, std::fabs(a.particles.y[k] - a.particles.reference_y[k]));
@@ -63,7 +63,7 @@ TEST_CASE("the weight of scaled masses stays what it was", "[stages]")
   Model model = make_model(case_file);
   scale_masses(model);
   Domain& main = *model.main;
-  main.gravity_y = -9.81;
+  main.settings.gravity_y = -9.81;
   particles_to_grid(main, 1e-4);
   double force = 0, mass = 0;
   for (const double f : main.grid.force_y) force += f;

@@ -100,7 +100,7 @@ void put(const Packet& packet, Domain& domain, const Elastic& law, double dt)
 /// the field, which is the particles' own velocity.
 double energy(const Domain& domain)
 {
-  if (!domain.consistent_inertia) return kinetic_energy(domain) + domains::strain_energy(domain);
+  if (!domain.settings.consistent_inertia) return kinetic_energy(domain) + domains::strain_energy(domain);
   const Particles& p = domain.particles;
   double kinetic = 0;
   for (int k = 0; k < p.size(); ++k)
@@ -123,7 +123,7 @@ double reflected(const Packet& packet, const std::filesystem::path& folder, doub
   Domain& domain = *model.main;
   const Elastic& law = case_file.materials[0].elastic();
   const double dt = case_file.courant_number * spacing / law.pressure_speed();
-  domain.flip_blend = 0.99; // so that the transfers take little of the packet on its way
+  domain.settings.flip_blend = 0.99; // so that the transfers take little of the packet on its way
   put(packet, domain, law, dt);
   const double way = 2 * packet.y / std::cos(packet.angle); // until its tail has met the base
   const int steps = static_cast<int>(way / speed_of(packet.kind, law) / dt);

@@ -55,7 +55,7 @@ Deposit collapse(const std::filesystem::path& folder, double h, double aspect)
   rebuild(domain);
   const Elastic& sand = case_file.materials[0].elastic();
   const double gravity = case_file.static_stage.gravity, lateral = sand.poisson / (1 - sand.poisson);
-  domain.gravity_y = -gravity;
+  domain.settings.gravity_y = -gravity;
   Particles& p = domain.particles;
   for (int k = 0; k < p.size(); ++k)
   {

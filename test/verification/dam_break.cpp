@@ -48,7 +48,7 @@ Findings run_dam_break(const std::filesystem::path& folder, double h)
   rebuild(domain);
   const Elastic& water = case_file.materials[0].elastic();
   const double gravity = case_file.static_stage.gravity, wave = std::sqrt(gravity * depth);
-  domain.gravity_y = -gravity;
+  domain.settings.gravity_y = -gravity;
   hold_at_rest(domain, water.density, gravity);
   const double dt = case_file.courant_number * h / water.pressure_speed(),
                end = duration * std::sqrt(depth / gravity);

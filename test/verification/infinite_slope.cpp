@@ -49,8 +49,8 @@ Slide slide(const InfiniteSlope& slope)
   domain.boundaries.push_back(std::make_unique<MirroredWall>(Wall{Direction::y, 0, 1, false}));
   sort_particles(domain);
   stress_by_weight(domain, top);
-  domain.gravity_y = -g * std::cos(angle);
-  domain.flip_blend = slope.flip_blend;
+  domain.settings.gravity_y = -g * std::cos(angle);
+  domain.settings.flip_blend = slope.flip_blend;
 
   const double dt = 0.5 * h / stiff.pressure_speed();
   const auto steps = static_cast<int>(std::ceil(slope.duration / dt));
@@ -62,9 +62,9 @@ Slide slide(const InfiniteSlope& slope)
   {
     domain.time = k * dt;
     // In the frame of the rock, which stands still here.
-    domain.gravity_x = g * std::sin(angle) - shaking(slope, domain.time + 0.5 * dt);
+    domain.settings.gravity_x = g * std::sin(angle) - shaking(slope, domain.time + 0.5 * dt);
     step(domain, dt);
-    const int top_particle = domain.place[id];
+    const int top_particle = domain.particles.index_of[id];
     result.slip = domain.particles.x[top_particle] - domain.particles.reference_x[top_particle];
     if (result.trigger == 0 && result.slip > triggered) result.trigger = domain.time + dt;
   }
@@ -87,24 +87,24 @@ Slide slide_finite(const InfiniteSlope& slope)
   sort_particles(domain);
   // Gravity grows while the ground is elastic and damped.
   const double dt = 0.5 * h / stiff.pressure_speed(), ramp = 0.5, settled = 1;
-  domain.plastic = false;
-  domain.damping = 0.7;
+  domain.settings.plastic = false;
+  domain.settings.local_damping = 0.7;
   for (int k = 0; k * dt < settled; ++k)
   {
     const double part = std::min(1.0, k * dt / ramp);
-    domain.gravity_x = part * g * std::sin(angle);
-    domain.gravity_y = -part * g * std::cos(angle);
+    domain.settings.gravity_x = part * g * std::sin(angle);
+    domain.settings.gravity_y = -part * g * std::cos(angle);
     step(domain, dt);
   }
-  domain.plastic = true;
-  domain.damping = 0;
-  domain.flip_blend = slope.flip_blend;
+  domain.settings.plastic = true;
+  domain.settings.local_damping = 0;
+  domain.settings.flip_blend = slope.flip_blend;
   domain.particles.reference_x = domain.particles.x;
   Slide result;
   for (int k = 0; k * dt < slope.duration; ++k)
   {
     domain.time = k * dt;
-    domain.gravity_x = g * std::sin(angle) - shaking(slope, domain.time + 0.5 * dt);
+    domain.settings.gravity_x = g * std::sin(angle) - shaking(slope, domain.time + 0.5 * dt);
     step(domain, dt);
     const Particles& p = domain.particles;
     double sum = 0;

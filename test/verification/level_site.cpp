@@ -27,13 +27,14 @@ Difference compare(const Case& case_file, Curve& curve)
   const double dt = test::stable_step(case_file, model);
   const Particles &p = model.main->particles, &q = model.left->domain->particles;
   std::vector<int> row(p.size());
-  for (int id = 0; id < p.size(); ++id) row[id] = model.left->row_near(p.reference_y[model.main->place[id]]);
+  for (int id = 0; id < p.size(); ++id)
+    row[id] = model.left->row_near(p.reference_y[model.main->particles.index_of[id]]);
   const int top = model.left->rows() - 1;
   int middle = 0; // the surface particle at the middle of the model
   for (int id = 0; id < p.size(); ++id)
   {
     const auto off = [&](int i)
-    { return std::fabs(p.reference_x[model.main->place[i]] - 0.5 * case_file.domain.width()); };
+    { return std::fabs(p.reference_x[model.main->particles.index_of[i]] - 0.5 * case_file.domain.width()); };
     if (row[id] == top && (row[middle] != top || off(id) < off(middle))) middle = id;
   }
   Difference worst;
@@ -49,7 +50,7 @@ Difference compare(const Case& case_file, Curve& curve)
       worst.greatest = std::max(worst.greatest, std::hypot(q.velocity_x[c], q.velocity_y[c]));
     }
     curve.x.push_back((k + 1) * dt);
-    curve.model.push_back(p.velocity_x[model.main->place[middle]]);
+    curve.model.push_back(p.velocity_x[model.main->particles.index_of[middle]]);
     curve.reference.push_back(q.velocity_x[model.left->particle_of_row(top)]);
   }
   return worst;

@@ -119,14 +119,14 @@ Findings move(const Solution& exact, double h, bool consistent, const std::strin
   const int steps = static_cast<int>(std::ceil(end * material().pressure_speed() / (0.5 * h)));
   const double dt = end / steps;
   Domain domain = start(exact, h, dt);
-  domain.consistent_inertia = consistent;
+  domain.settings.consistent_inertia = consistent;
   domains::run(domain, steps, dt);
   const Particles& p = domain.particles;
   Curve speed{"velocity along the row nearest to Y = 0.25", "X (m)", "v_x (m/s)", {}, {}, {}};
   Curve stress{"stress along the row nearest to Y = 0.25", "X (m)", "sigma_xx (Pa)", {}, {}, {}};
   double v_error = 0, v_square = 0, s_error = 0, s_square = 0;
   const double row = (std::floor(0.25 / (h / 3)) + 0.5) * h / 3;
-  for (const int k : domain.place) // by id: row by row, from the left
+  for (const int k : domain.particles.index_of) // by id: row by row, from the left
   {
     const double X = p.reference_x[k], Y = p.reference_y[k], late = end + 0.5 * dt;
     const double vx = exact.velocity(0, X, end), vy = exact.velocity(1, Y, end);

@@ -78,8 +78,8 @@ Nodes with_images(const Domain& domain, const std::vector<Wall>& walls)
                                 p.volume[k],
                                 p.velocity_x[k],
                                 p.velocity_y[k],
-                                domain.gravity_x,
-                                domain.gravity_y,
+                                domain.settings.gravity_x,
+                                domain.settings.gravity_y,
                                 {{p.affine_xx[k], p.affine_xy[k]}, {p.affine_yx[k], p.affine_yy[k]}},
                                 {{p.stress_xx[k], p.stress_xy[k]}, {p.stress_xy[k], p.stress_yy[k]}}}};
     for (const Wall& wall : walls)
@@ -100,7 +100,7 @@ double difference(double h, const std::vector<Wall>& walls, int to_x, int to_y)
   for (const Wall& wall : walls) domain.boundaries.push_back(std::make_unique<MirroredWall>(wall));
   sort_particles(domain);
   particles_to_grid(domain, 1e-3);
-  for (const auto& boundary : domain.boundaries) boundary->constrain(domain);
+  for (const auto& boundary : domain.boundaries) boundary->constrain(domain.grid);
   const Grid& g = domain.grid;
   Node scale, error;
   int compared = 0;

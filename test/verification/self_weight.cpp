@@ -16,7 +16,7 @@ void settle(Model& model, const Case& case_file)
   for (int k = 0; k * dt < case_file.static_stage.until.at_most; ++k)
   {
     const double s = std::min(1.0, k * dt / case_file.static_stage.ramp);
-    column.gravity_y = -case_file.static_stage.gravity * s * s * s * (10 + s * (6 * s - 15));
+    column.settings.gravity_y = -case_file.static_stage.gravity * s * s * s * (10 + s * (6 * s - 15));
     model.left->advance(k * dt, dt);
   }
 }

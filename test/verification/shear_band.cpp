@@ -30,9 +30,8 @@ public:
   {
   }
 
-  void constrain(Domain& domain) override
+  void constrain(Grid& grid) override
   {
-    Grid& grid = domain.grid;
     const double inside = 0.5 * width_ - rim * grid.spacing;
     for (std::size_t b = 0; b < grid.blocks.size(); ++b)
       for (int k = 0; k < block_nodes; ++k)
@@ -85,7 +84,7 @@ BandEnergy shear_band(VonMises law, double degrees, BandPlace place, double spac
   const int cells = cells_across(spacing);
   const double width = spacing * (cells + (place == BandPlace::within_cells ? 1 : 0));
   Domain domain = domains::make_domain({{law, {0, 0, width, width}, spacing / 2}}, spacing);
-  domain.average_volume = average_volume;
+  domain.settings.average_volume = average_volume;
   domain.boundaries.push_back(std::make_unique<Grip>(cosine, sine, width, speed * spacing));
   sort_particles(domain);
   const double dt = 0.5 * spacing / law.pressure_speed();

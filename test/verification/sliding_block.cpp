@@ -56,15 +56,15 @@ Findings run_sliding_block(const std::filesystem::path& folder, double spacing)
   for (; k * dt < 1.5; ++k)
   {
     const double s = std::min(1.0, k * dt / 1.0);
-    domain.gravity_x = gravity * std::sin(slope) * s * s * s * (10 + s * (6 * s - 15));
+    domain.settings.gravity_x = gravity * std::sin(slope) * s * s * s * (10 + s * (6 * s - 15));
     column.advance(k * dt, dt);
   }
-  domain.damping = 0;
+  domain.settings.local_damping = 0;
   const double rest = displacement(column);
   Curve curve{"slip", "time (s)", "slip (m)", table.at("time"), {}, table.at("slip")};
   for (long n = 0; n < static_cast<long>(curve.x.size()) * stride; ++n)
   {
-    domain.gravity_x = gravity * std::sin(slope) + shaking((n + 0.5) * dt);
+    domain.settings.gravity_x = gravity * std::sin(slope) + shaking((n + 0.5) * dt);
     column.advance((k + n) * dt, dt);
     if ((n + 1) % stride == 0) curve.model.push_back(displacement(column) - rest);
   }

@@ -16,7 +16,7 @@ void run(Domain& domain, double gravity, double ramp, double duration, double dt
   for (long k = 0; k * dt < duration; ++k)
   {
     const double s = ramp > 0 ? std::min(1.0, k * dt / ramp) : 1;
-    domain.gravity_y = -gravity * s * s * s * (10 + s * (6 * s - 15));
+    domain.settings.gravity_y = -gravity * s * s * s * (10 + s * (6 * s - 15));
     domain.time = k * dt;
     step(domain, dt);
   }
@@ -36,10 +36,10 @@ Settled settle(const Case& case_file)
   add_static_boundaries(ground.model, case_file);
   Domain& domain = *ground.model.main;
   ground.dt = case_file.courant_number * case_file.grid.spacing / greatest_wave_speed(domain);
-  domain.plastic = false;
+  domain.settings.plastic = false;
   run(domain, ground.gravity, 0.5 * elastic_time, elastic_time, ground.dt);
-  domain.plastic = true;
-  domain.damping = 0;
+  domain.settings.plastic = true;
+  domain.settings.local_damping = 0;
   ground.particles = domain.particles;
   return ground;
 }
@@ -52,14 +52,14 @@ double displacement(Settled& ground, double duration)
   for (Material& material : domain.materials)
     for (auto& state : material.state) std::fill(state.begin(), state.end(), 0.0);
   sort_particles(domain);
-  const std::vector<int> before = domain.place;
+  const std::vector<int> before = domain.particles.index_of;
   const Particles start = domain.particles;
   run(domain, ground.gravity, 0, duration, ground.dt);
   const Particles& p = domain.particles;
   double greatest = 0;
   for (std::size_t id = 0; id < before.size(); ++id)
-    greatest = std::max(greatest, std::hypot(p.x[domain.place[id]] - start.x[before[id]],
-                                             p.y[domain.place[id]] - start.y[before[id]]));
+    greatest = std::max(greatest, std::hypot(p.x[domain.particles.index_of[id]] - start.x[before[id]],
+                                             p.y[domain.particles.index_of[id]] - start.y[before[id]]));
   return greatest;
 }
 } // namespace

@@ -34,9 +34,8 @@ public:
           nodes_.push_back({node, i < 0 ? 0.0 : i == 0 ? 0.5 : 1.0});
   }
   void add_forces(Domain&, double dt) override { dt_ = dt; }
-  void constrain(Domain& domain) override
+  void constrain(Grid& g) override
   {
-    Grid& g = domain.grid;
     load = 0;
     for (const auto& [node, share] : nodes_)
     {
@@ -62,7 +61,7 @@ Curve press(const std::filesystem::path& folder, double h, const std::string& av
   Model model = make_model(case_file);
   add_static_boundaries(model, case_file);
   Domain& domain = *model.main;
-  domain.damping = 0; // it would carry load
+  domain.settings.local_damping = 0; // it would carry load
   auto owned = std::make_unique<Footing>();
   Footing& footing = *owned;
   domain.boundaries.push_back(std::move(owned));

@@ -163,7 +163,7 @@ std::vector<Curve> profiles(const Domain& domain, double h, double t)
   const Particles& p = domain.particles;
   std::vector<Curve> curves{{"angle turned at half time", "R (m)", "angle (rad)", {}, {}, {}},
                             {"shear stress at half time", "R (m)", "sigma_rt (Pa)", {}, {}, {}}};
-  for (const int k : domain.place)
+  for (const int k : domain.particles.index_of)
   {
     const Polar at(p, k, t);
     if (p.reference_x[k] < 0 || p.reference_y[k] < 0 || p.reference_y[k] > 0.5 * h || at.R < 0.6 ||
@@ -205,7 +205,7 @@ Findings turn(double h, bool consistent, const std::string& suffix)
   const int half = static_cast<int>(std::ceil(0.5 * period * material().pressure_speed() / (0.5 * h)));
   const double dt = 0.5 * period / half;
   Domain domain = start(h, dt);
-  domain.consistent_inertia = consistent;
+  domain.settings.consistent_inertia = consistent;
   domains::run(domain, half, dt);
   const double late = 0.5 * period + 0.5 * dt;
   Findings found;
