@@ -14,7 +14,8 @@
 
 namespace mpm
 {
-/// Every constitutive law there is. A new one is one header and one name here.
+/// Every constitutive law there is. A new one is a struct with the members of Elastic, in a header of its
+/// own, and its name here; case reader, checkpoints and frames go by its tables of parameters and state.
 using Law = std::variant<Elastic, VonMises, MohrCoulomb, SlipWeakening>;
 
 /// No law remembers more history variables than this.
@@ -29,7 +30,7 @@ struct Material
   std::vector<std::vector<double>> state;
   /// Inertial over gravitational mass: 1, but where a static stage scales masses to settle in fewer steps.
   double mass_scale = 1;
-  int origin = -1; ///< of a mixture at an interface: place of the material that it belongs to; -1: it is none
+  int origin = -1; ///< of a mixture at an interface: index of the material that it belongs to; -1: it is none
 
   const Elastic& elastic() const
   {

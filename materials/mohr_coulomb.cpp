@@ -139,7 +139,7 @@ double return_whole(std::array<double, 3>& s, double before, double dilation, co
   return mean() >= 0 ? torn + (uncut - mean()) : torn;
 }
 
-/// Equivalent plastic strain of principal ones.
+/// Equivalent plastic strain sqrt(2/3 e : e) of the deviator e of principal strains.
 double equivalent(const std::array<double, 3>& strain)
 {
   const double mean = (strain[0] + strain[1] + strain[2]) / 3;

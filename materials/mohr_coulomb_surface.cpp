@@ -16,6 +16,14 @@ bool in_order(const std::array<double, 3>& s)
 }
 } // namespace
 
+/// With sf = sin(phi), sp = sin(psi) and F the excess over a plane, flow x along the main plane (s1, s3)
+/// changes the stress by x (-A, B, E) and F by -a x,
+///
+///   A = 2 G (1 + sp/3) + 2 K sp,   B = (4 G/3 - 2 K) sp,   E = 2 G (1 - sp/3) - 2 K sp,
+///   a = 4 G (1 + sf sp/3) + 4 K sf sp.
+///
+/// If that leads out of order, two planes are active that share s1 (right edge, s2 = s3) or s3 (left edge, s1
+/// = s2): [a b; b a] (x1, x2) = (F1, F2), b = 2 G (1 +- (sf + sp) - sf sp/3) + 4 K sf sp.
 MohrCoulombSurface::Triple MohrCoulombSurface::return_to_planes(const Triple& trial) const
 {
   const auto [s1, s2, s3] = trial;
@@ -45,6 +53,7 @@ MohrCoulombSurface::Triple MohrCoulombSurface::return_to_planes(const Triple& tr
   return {twin, twin, s3 + E * (first + second)};
 }
 
+/// s_dev / (2 G) + s_mean / (3 K).
 MohrCoulombSurface::Triple MohrCoulombSurface::elastic_strain(const Triple& s) const
 {
   const double mean = (s[0] + s[1] + s[2]) / 3, volumetric = mean / (3 * bulk);

@@ -28,10 +28,12 @@ struct MohrCoulombSurface
     double opening() const { return crack[0] + crack[1] + crack[2]; }
   };
 
+  /// F: how far the stress is beyond the surface, Pa.
   double excess(double s1, double s3) const { return s1 - s3 + (s1 + s3) * sine - cohesive; }
 
-  /// Return to the main plane, or to one of the two edges beside it (de Souza Neto, Peric & Owen 2008,
-  /// section 8.2), without the cut-off. Not in order when the return leads beyond the apex.
+  /// Return to the main plane, or to one of the two edges beside it (de Souza Neto, Peric & Owen,
+  /// Computational Methods for Plasticity, Wiley 2008, section 8.2), without the cut-off. Not in order when
+  /// the return leads beyond the apex.
   Triple return_to_planes(const Triple& trial) const;
 
   /// Return to the planes that flow at the dilation angle and to the cut-off at `limit`, whose flow is

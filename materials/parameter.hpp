@@ -44,7 +44,7 @@ struct Choice
 {
   std::string_view key;
   std::span<const std::string_view> names; ///< what the case file may say
-  int Law::*value;                         ///< place among the names; the initial value if the key is absent
+  int Law::*value;                         ///< index among the names; the initial value if the key is absent
 };
 
 /// One history variable of a law: name in checkpoint and frames, unit, and a line of explanation.

@@ -5,7 +5,7 @@
 
 namespace mpm
 {
-/// A stretch of consecutive particles of one law: Cauchy stress (Pa, tension positive, updated in place), the
+/// Consecutive particles of one law: Cauchy stress (Pa, tension positive, updated in place), the
 /// strain increment of the step (engineering shear is 2 exy), mass (kg/m) and volume after it (m3/m), and
 /// cosine and sine of the step's rotation, which the stress has made already.
 struct StressBatch
@@ -24,8 +24,8 @@ struct StressBatch
   const double* __restrict sine;
 };
 
-/// sigma += D : de in plane strain (ezz = 0), lame and shear modulus in Pa. Not inlined, so that every law
-/// that begins with it rounds alike.
+/// sigma += lambda tr(de) 1 + 2 G de in plane strain (de_zz = 0), lambda and G in Pa. Not inlined, so that
+/// every law that begins with it rounds alike.
 [[gnu::noinline]] inline void add_elastic_stress(const StressBatch& s, double lame, double shear)
 {
 #pragma GCC ivdep

@@ -1,5 +1,6 @@
 #pragma once
-// What the laws that yield, slide and open share.
+// What the laws that yield, slide and open share. Their update is an elastic trial of a whole chunk, a test
+// of the yield surface that the compiler makes vectors of, and a return of those points that are beyond it.
 
 #include "materials/parameter.hpp"
 #include "materials/plane_strain.hpp"
@@ -15,11 +16,11 @@ inline constexpr std::array<StateField, 3> flow_and_opening{
      {"opening", "1", "volumetric strain by which the point is torn apart"},
      {"dissipation", "J/m3", "energy dissipated by plastic flow per undeformed volume"}}};
 
-/// Calls f(begin, n, over) for stretches of a batch in which a point has excess(k) > 0; over[k] is what
+/// Calls f(begin, n, over) for pieces of a batch in which some point has excess(k) > 0; over[k] is what
 /// excess(begin + k) was. Finding them vectorises, so that a batch in which nobody yields costs little.
 /// Inline, or the loops of f would not be vectors.
 template <class Excess, class Function>
-[[gnu::always_inline]] inline void for_each_stretch_beyond(int count, const Excess& excess, const Function& f)
+[[gnu::always_inline]] inline void for_each_piece_beyond(int count, const Excess& excess, const Function& f)
 {
   constexpr int width = 64;
   for (int begin = 0; begin < count; begin += width)
@@ -41,12 +42,12 @@ template <class Excess, class Function>
 template <class Excess, class Function>
 void for_each_beyond(int count, const Excess& excess, const Function& f)
 {
-  for_each_stretch_beyond(count, excess,
-                          [&](int begin, int n, const double* over)
-                          {
-                            for (int k = 0; k < n; ++k)
-                              if (over[k] > 0) f(begin + k);
-                          });
+  for_each_piece_beyond(count, excess,
+                        [&](int begin, int n, const double* over)
+                        {
+                          for (int k = 0; k < n; ++k)
+                            if (over[k] > 0) f(begin + k);
+                        });
 }
 
 /// Ground that was torn apart carries no pressure until it has closed again. `opening` is the volumetric

@@ -13,7 +13,7 @@ struct Sample
 
 /// Root of a continuous function that is positive at low.at and not at high.at, where it is within
 /// `tolerance` of 0 or the interval at round-off: regula falsi that halves the weight of an end that stays
-/// (Illinois; Dowell & Jarratt 1971), and the interval where three steps have not.
+/// (Illinois; Dowell & Jarratt, BIT 11 (1971) 168), and the interval where three steps have not.
 template <class Function>
 double find_root(Sample low, Sample high, double tolerance, const Function& f)
 {

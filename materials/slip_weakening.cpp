@@ -98,6 +98,8 @@ double SlipWeakening::plastic_step(double tau, double pressure, double strain) c
   return x;
 }
 
+/// At constant pressure the deviator shrinks from the trial's tau = sqrt(J2) to p sin(phi), by sqrt(3) G per
+/// plastic strain; the work of the step is sqrt(3) p sin(phi) per plastic strain.
 void SlipWeakening::return_to_surface(const StressBatch& s, double* __restrict strain,
                                       double* __restrict opening, double* __restrict dissipation) const
 {

@@ -8,11 +8,18 @@
 namespace mpm
 {
 /// Elasticity with the Drucker-Prager surface sqrt(J2) = sin(phi) p, flow at constant volume, and friction
-/// that weakens with slip (paper eqs. 7 and 8; Mizoguchi et al. 2007): mu = mu_r + (mu_p - mu_r) exp(ln(0.05)
-/// d / d_c), d = sqrt(3) eps_s delta_s with delta_s the thickness of the shear zone. No cohesion; a point
-/// torn apart carries no pressure until it has closed. At constant volume in plane strain sqrt(J2) = (s1 -
-/// s3) / 2 and p = -(s1 + s3) / 2, so that a band in simple shear mobilises tau / sigma_n = sin(phi) (Davis
-/// 1968).
+/// that weakens with the slip d (paper eqs. 7 and 8; Mizoguchi, Hirose, Shimamoto & Fukuyama, Geophys. Res.
+/// Lett. 34 (2007) L01308),
+///
+///   mu = mu_r + (mu_p - mu_r) exp(ln(0.05) d / d_c),   d = sqrt(3) eps_s delta_s,
+///
+/// delta_s being the thickness of the shear zone: at d_c 5 % of the drop are left. (Eq. 7 is printed with
+/// another sign in the exponent, with which friction would grow.) No cohesion; a point torn apart carries no
+/// pressure until it has closed.
+///
+/// At constant volume in plane strain sqrt(J2) = (s1 - s3) / 2 and p = -(s1 + s3) / 2, so that a band in
+/// simple shear mobilises tau / sigma_n = sin(phi), not tan(phi) (Davis, in: Lee (ed.), Soil Mechanics:
+/// Selected Topics, 1968, 341-380).
 struct SlipWeakening : Elastic
 {
   /// How the friction coefficient becomes the angle: mc as that of a Mohr-Coulomb surface, tan(phi) = mu;
@@ -81,7 +88,7 @@ private:
   bool idle_ = false; ///< a critical slip is given, and the friction does not fall
 
   bool weakens() const { return friction_residual < friction_peak; }
-  /// -d ln(mu - mu_r) / d eps_s
+  /// -d ln(mu - mu_r) / d eps_s = -ln(0.05) sqrt(3) delta_s / d_c
   double decay() const { return -std::log(0.05) * std::sqrt(3.0) * thickness / critical_slip; }
   double plastic_step(double excess_shear, double pressure, double strain) const;
   void return_to_surface(const StressBatch& s, double* strain, double* opening, double* dissipation) const;

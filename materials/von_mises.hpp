@@ -6,9 +6,14 @@
 
 namespace mpm
 {
-/// Elasticity with a von Mises yield surface q = sqrt(3 J2) that softens linearly from the peak to the
-/// residual strength over the plastic strain delta_r / (sqrt(3) l), l the band width (METHODS section 6;
-/// paper Table 1, eq. 8). Strengths are Mises stresses in Pa: the undrained shear strength is q / sqrt(3).
+/// Elasticity with a von Mises yield surface q = sqrt(3 J2) that softens linearly with the plastic strain
+/// eps,
+///
+///   q_y = max(q_p - (q_p - q_r) eps / eps_r, q_r),   eps_r = delta_r / (sqrt(3) l)   (paper Table 1, eq. 8),
+///
+/// delta_r being the shear displacement at which the residual strength is reached and l the width of the
+/// band. Strengths are Mises stresses in Pa, work conjugate to eps: the undrained shear strength is q /
+/// sqrt(3).
 struct VonMises : Elastic, LinearSoftening
 {
   static constexpr std::string_view model = "von_mises";
@@ -56,7 +61,8 @@ struct VonMises : Elastic, LinearSoftening
     return idle_warning().empty() ? std::vector<std::string>{} : std::vector{idle_warning()};
   }
 
-  /// Small-step radial return, exact for linear softening; state[0] is the plastic strain.
+  /// Elastic trial, and a radial return of the deviator that is exact for linear softening; state[0] is the
+  /// plastic strain.
   void update(const StressBatch& s, double* const* state, bool plastic) const
   {
     add_elastic_stress(s, lame(), shear_modulus());
@@ -74,6 +80,9 @@ struct VonMises : Elastic, LinearSoftening
   }
 
 private:
+  /// With the trial's q and the slope H = -(q_p - q_r) / eps_r < 0 of the strength, the plastic strain of the
+  /// step solves q - 3 G x = q_y(eps + x): x = (q - q_y) / (3 G + H) while it softens, (q - q_r) / (3 G)
+  /// beyond. The deviator shrinks by 1 - 3 G x / q; the mean stress stays.
   void return_to_yield_surface(const StressBatch& s, double* __restrict strain) const
   {
     // All that the loops need is a copy: a member that a store might change keeps them from being vectors.
@@ -94,7 +103,7 @@ private:
         const Deviator trial(s, k);
         const bool yields = over[i] > 0; // an elastic point stays as it is, to the last bit
         const double q = std::max(trial.mises(), std::numeric_limits<double>::min());
-        // The two roots of the return equation, softening and residual; the smaller one is admissible.
+        // The two roots x, softening and residual; the smaller one is the strength's.
         const double soft = (q - (top + slope * strain[k])) * softening_rate;
         const double flat = (q - bottom) * residual_rate;
         const double step = yields ? std::max(0.0, std::min(soft, flat)) : 0;
@@ -106,7 +115,7 @@ private:
         s.xy[k] = yields ? trial.xy * scale : s.xy[k];
       }
     };
-    for_each_stretch_beyond(s.count, excess, settle);
+    for_each_piece_beyond(s.count, excess, settle);
   }
 };
 } // namespace mpm
