@@ -4,6 +4,8 @@
 #include "io/common/error.hpp"
 #include "io/common/input_file.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace mpm
@@ -54,13 +56,13 @@ Extent read_domain(Section domain, Problems& problems)
 
 double read_safety(Section& section, double fallback)
 {
-  constexpr double stable = 0.78; // METHODS section 7: an isolated particle of the cubic kernel
   const double courant_number = section.number_or(fallback, "courant_number", Dimension::none,
                                                   {.lower = 0, .lower_allowed = false, .upper = 1});
-  if (courant_number > stable)
+  if (courant_number > stable_courant_number)
     section.error("courant_number",
-                  "is above 0.78, where loose particles at the surface become unstable; 0.5 is the "
-                  "default of the seismic stage, 0.7 of the static one");
+                  fmt::format("is above {}, where loose particles at the surface become unstable; {} is the "
+                              "default of the seismic stage, {} of the static one",
+                              stable_courant_number, usual_courant_number, fast_courant_number));
   return courant_number;
 }
 

@@ -7,6 +7,7 @@
 #include "io/case/surface.hpp"
 #include "io/records/reader.hpp"
 #include "materials/material.hpp"
+#include "solver/mpm/stability.hpp"
 
 #include <cmath>
 #include <filesystem>
@@ -53,7 +54,7 @@ struct Region
   int below = -1;           ///< index in Case::surfaces
   double left = -std::numeric_limits<double>::infinity(); ///< m, to the nearest particle column
   double right = std::numeric_limits<double>::infinity(); ///< m, likewise
-  std::string location = {};                                ///< in the case file, for messages
+  std::string location = {};                              ///< in the case file, for messages
 };
 
 /// A stretch of a vertical line that one region has, in m.
@@ -74,11 +75,11 @@ struct Convergence
 /// `static`: gravity grows over `ramp` and the ground settles under local damping.
 struct StaticSettings
 {
-  double gravity = 9.81;       ///< m/s2, downwards; 0: no gravity and nothing to settle
-  double ramp = 10;            ///< s
-  double damping = 0.75;       ///< fraction of the unbalanced force, in [0, 1)
-  double courant_number = 0.7; ///< Courant number: no wave has to be carried, only stability counts
-  bool mass_scaling = true;    ///< inertia that gives every material the slowest one's wave speed
+  double gravity = 9.81;                       ///< m/s2, downwards; 0: no gravity and nothing to settle
+  double ramp = 10;                            ///< s
+  double damping = 0.75;                       ///< fraction of the unbalanced force, in [0, 1)
+  double courant_number = fast_courant_number; ///< no wave has to be carried, only stability counts
+  bool mass_scaling = true; ///< inertia that gives every material the slowest one's wave speed
   Convergence until;
 };
 
@@ -210,7 +211,7 @@ struct Case
   std::vector<Material> materials;
   StaticSettings static_stage;
   SeismicSettings seismic;
-  double courant_number = 0.5; ///< Courant number dt c_p / h, see METHODS section 7
+  double courant_number = usual_courant_number; ///< dt c_p / h
   OutputSettings output;
 
   /// The ground over [from, to] from the bottom upwards, the surfaces at their mean heights there.

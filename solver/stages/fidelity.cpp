@@ -12,7 +12,6 @@ namespace
 {
 constexpr double tolerance = 0.01; // of the speed, and as damping ratio
 constexpr double much = 0.10;      // of the Arias intensity: the scatter that engineers accept in it
-constexpr double usual_courant = 0.5;
 
 /// A kind of wave and the component of the motion that sends it up.
 struct Kind
@@ -77,11 +76,11 @@ void report_wave_fidelity(Session& session, double dt, const IncomingWave* wave)
       if (spectra[k]) report_share(session, material, kinds[k], limit, *spectra[k], found);
     }
   }
-  if (wave && session.case_file.courant_number < usual_courant)
+  if (wave && session.case_file.courant_number < usual_courant_number)
     session.log.warn("time_step.courant_number: {} is below {}: waves lose the same in every step, so that "
                      "numerical damping "
                      "is {:.2g} times that of {}; a smaller step is not a more accurate one",
-                     session.case_file.courant_number, usual_courant,
-                     usual_courant / session.case_file.courant_number, usual_courant);
+                     session.case_file.courant_number, usual_courant_number,
+                     usual_courant_number / session.case_file.courant_number, usual_courant_number);
 }
 } // namespace mpm

@@ -13,9 +13,6 @@ namespace mpm
 {
 namespace
 {
-constexpr double courant_limit = 0.7;    // beyond it the step is shortened (METHODS section 7),
-constexpr double stability_limit = 0.78; // or beyond this one in a case that starts that fast
-
 std::string version_text(const std::string& program)
 {
   return fmt::format("{} {} ({})\nbuild: {}", program, SEISMPM_VERSION, SEISMPM_GIT, SEISMPM_BUILD);
@@ -163,7 +160,7 @@ void Session::finish(std::string_view stage, int exit, const Model& model, const
 void check_step(Session& session, const Model& model, double courant_number, Clock& clock)
 {
   const double h = session.case_file.grid.spacing, speed = greatest_wave_speed(*model.main);
-  const double limit = courant_number < courant_limit ? courant_limit : stability_limit;
+  const double limit = courant_number < fast_courant_number ? fast_courant_number : stable_courant_number;
   if (clock.dt * speed <= limit * h) return;
   clock.change_step(clock.dt / 2);
   session.log.warn(
