@@ -28,17 +28,22 @@ struct BaseDrift
   double half_length = 0; ///< of the base, m
 };
 
-/// What keeps dashpots from drifting: per face of impedance z a force (z / T) (s + r) towards the free field.
-/// s follows the face's distance e from the free field as ds/dt = (e - s) / (T / 2); r is the slow part of
-/// the reaction, dr/dt = s / (10 T).
+/// What keeps dashpots from drifting: on each face of impedance z a force (z / T) (s + r) towards the free
+/// field,
 ///
-/// Dashpots alone give way to a lasting load F at the speed F / z. With the spring the base goes by about F T
-/// / z, the way of T seconds, and comes back as r takes over the load: the frozen static reaction learns the
-/// new weight. A wave of angular frequency w is reflected by R = -X / (2 + X), X = (1 + 1 / (10 iwT)) / (iwT
-/// (1 + iwT/2)): |R| is 0.53 at w = 1 / T, 0.09 at pi / T and 0.025 at 2 pi / T, near 1 / (1 + (wT)^2), where
-/// a spring without lag has 1 / sqrt(1 + (2wT)^2). Far below the ground's own frequencies it is up to 1.16
-/// (at w = 0.2 / T), which the loop of ground and base damps all the same. Only what differs from the free
-/// field meets the spring: the motion that level ground has in common with its columns does not.
+///   ds/dt = (e - s) / (T / 2),   dr/dt = s / (10 T),
+///
+/// e being the face's distance from the free field. s is the spring, which lags; r is the slow part of the
+/// reaction.
+///
+/// Dashpots alone give way to a lasting load F, such as the weight of ground that has slid, at the speed F /
+/// z. With the spring the base goes by about F T / z, as far as without it in T seconds, and comes back as r
+/// takes over the load: the static reaction learns the new weight. A wave of angular frequency w is reflected
+/// by R = -X / (2 + X), X = (1 + 1 / (10 iwT)) / (iwT (1 + iwT/2)): |R| is 0.53 at w = 1 / T, 0.09 at pi / T
+/// and 0.025 at 2 pi / T, near 1 / (1 + (wT)^2), where a spring without lag has 1 / sqrt(1 + (2wT)^2). Far
+/// below the ground's own frequencies it is up to 1.16 (at w = 0.2 / T), which the loop of ground and base
+/// damps all the same. Only what differs from the free field meets the spring: the motion that level ground
+/// has in common with its columns does not.
 class BaseSpring
 {
 public:

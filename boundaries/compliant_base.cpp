@@ -15,7 +15,7 @@ void CompliantBase::release(const Particles& particles)
 
 void CompliantBase::add_forces(Domain& domain, double dt)
 {
-  nodes_.find(domain.grid, domain.particles, faces_, stretch_spring(domain.particles, dt));
+  nodes_.spread(domain.grid, domain.particles, faces_, stretch_spring(domain.particles, dt));
   const auto [vx, vy] = wave_->velocity(domain.time + 0.5 * dt);
   Grid& g = domain.grid;
   auto& dashpot_x = domain.settings.consistent_inertia ? g.face_dashpot_x : g.dashpot_x;

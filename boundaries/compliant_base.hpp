@@ -8,9 +8,11 @@
 
 namespace mpm
 {
-/// Compliant base (paper eq. 4): viscous dashpots on the bottom face whose far end moves with twice the
-/// upgoing velocity; the static reaction is that of the frozen images. A spring, where there is one, keeps
-/// the base from drifting away from the free field.
+/// Compliant base (paper eq. 4): the face moves with v = v_up + v_down on rock that carries both waves on, so
+/// that its traction is rho c (v_up - v_down) = rho c (2 v_up - v): dashpots of the impedance rho c, c = c_s
+/// along the face and c_p across it, whose far ends move with twice the upgoing velocity. The motion of a
+/// rock outcrop is 2 v_up, too. The static reaction is that of the frozen images. A spring, where there is
+/// one, keeps the base from drifting away from the free field.
 class CompliantBase final : public Boundary
 {
 public:

@@ -6,9 +6,8 @@ namespace mpm
 {
 namespace
 {
-/// What a node's mean velocity loses when the face moves with 1 m/s, by component; dashpots at the node
-/// itself hold it.
-std::array<double, 2> yielding(const Grid& g, int node, double dt)
+/// r_j of a node, by component.
+std::array<double, 2> mobility(const Grid& g, int node, double dt)
 {
   const double m = g.mass[node], half = 0.5 * dt;
   return {half * g.face_dashpot_x[node] / (m + half * g.dashpot_x[node]),
@@ -28,23 +27,23 @@ void FaceColumns::apply(Grid& g, const FaceNodes& nodes, double dt)
   {
     if (g.mass[at.node] <= g.smallest_mass) continue;
     Column& column = columns_[at.column - first_];
-    const std::array<double, 2> v = g.middle_velocity(at.node), r = yielding(g, at.node, dt);
+    const std::array<double, 2> v = g.middle_velocity(at.node), r = mobility(g, at.node, dt);
     const std::array<double, 2> c{g.face_dashpot_x[at.node], g.face_dashpot_y[at.node]};
     for (int k = 0; k < 2; ++k)
     {
       column.dashpot[k] += c[k];
       column.velocity[k] += c[k] * v[k];
-      column.way[k] += c[k] * r[k];
+      column.compliance[k] += c[k] * r[k];
     }
   }
   for (Column& column : columns_)
     for (int k = 0; k < 2; ++k)
-      if (column.dashpot[k] > 0) column.velocity[k] /= column.dashpot[k] + column.way[k];
+      if (column.dashpot[k] > 0) column.velocity[k] /= column.dashpot[k] + column.compliance[k];
   for (const FaceNode& at : nodes)
   {
     if (g.mass[at.node] <= g.smallest_mass) continue;
     const auto [ux, uy] = velocity(at.column);
-    const auto [rx, ry] = yielding(g, at.node, dt);
+    const auto [rx, ry] = mobility(g, at.node, dt);
     g.velocity_x[at.node] -= 2 * rx * ux;
     g.velocity_y[at.node] -= 2 * ry * uy;
   }

@@ -4,15 +4,22 @@
 
 namespace mpm
 {
-/// Dashpots of a level face that act on its velocity instead of that of each node. At node column i the face
-/// moves with u_i = sum_j w_j v_j over the nodes j of the column that it touches, w_j = c_j / sum c_j, and
-/// node j gets the force c_j (2 v_up - u_i), v being the mean of a step's start and end as in solve_grid.
+/// Dashpots of a level face that act on its velocity instead of that of each node. At a column of nodes the
+/// face moves with u = sum_j w_j v_j over the nodes j that it touches, w_j = c_j / sum c_j, and node j gets
+/// the force c_j (2 v_up - u), v being the mean of a step's start and end as in solve_grid.
 ///
 /// With consistent inertia the field of the splines moves as the ground, and node values differ from it by
 /// (kh)^2 / 6 of a wave: dashpots at the nodes would err by as much, as they have to with the lumped mass,
-/// which errs alike. A column's nodes are coupled by a matrix of rank one, so that the equation of motion
-/// with them has a closed form (Sherman & Morrison 1950); like the centred dashpot of a node it never gives
-/// energy.
+/// which errs alike.
+///
+/// The nodes of a column are coupled by a matrix of rank one, so that their equations of motion have a closed
+/// form (Sherman & Morrison, Ann. Math. Stat. 21 (1950) 124). Let v0_j be the mean velocity of node j without
+/// these dashpots and r_j = (dt/2) c_j / (m_j + (dt/2) d_j) its mobility, the share of u that it loses when
+/// the face moves with u; d_j are dashpots at the node itself, which hold it. Then
+///
+///   v_j = v0_j - r_j u,     u = sum c_j v0_j / (sum c_j + sum c_j r_j).
+///
+/// Like the centred dashpot of a node that never gives energy.
 class FaceColumns
 {
 public:
@@ -25,9 +32,9 @@ public:
 private:
   struct Column
   {
-    std::array<double, 2> dashpot{};  ///< sum c, N s/m per m
-    std::array<double, 2> velocity{}; ///< u, m/s
-    std::array<double, 2> way{};      ///< sum c_j r_j, r_j being what u = 1 m/s takes from the mean of node j
+    std::array<double, 2> dashpot{};    ///< sum c, N s/m per m
+    std::array<double, 2> velocity{};   ///< u, m/s
+    std::array<double, 2> compliance{}; ///< sum c_j r_j: how much the nodes yield to the face, N s/m per m
   };
   std::vector<Column> columns_;
   int first_ = 0; ///< grid column of the first

@@ -18,7 +18,7 @@ std::vector<Face> find_faces(const Domain& domain, Edge edge, double position, d
     for (int k = domain.material_begin[m]; k < domain.material_begin[m + 1]; ++k)
     {
       const double depth = bottom ? p.reference_y[k] - position : std::fabs(p.reference_x[k] - position);
-      if (depth > 0.75 * size) continue;
+      if (!in_outer_row(depth, size)) continue;
       const double outward = edge == Edge::left ? -0.5 * size : 0.5 * size;
       const Face face = bottom ? Face{p.id[k], 0, -0.5 * size, shear, pressure}
                                : Face{p.id[k], outward, 0, pressure, shear};
@@ -67,8 +67,8 @@ void FaceNodes::lay_out(const Grid& grid)
   }
 }
 
-void FaceNodes::find(const Grid& g, const Particles& p, const std::vector<Face>& faces,
-                     std::span<const std::array<double, 2>> far_end)
+void FaceNodes::spread(const Grid& g, const Particles& p, const std::vector<Face>& faces,
+                       std::span<const std::array<double, 2>> far_end)
 {
   cells_.clear();
   for (std::size_t k = 0; k < faces.size(); ++k)

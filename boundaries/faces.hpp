@@ -7,14 +7,22 @@
 
 namespace mpm
 {
-/// The piece of an outer face that belongs to a particle of the outer row: it moves with the particle, half a
-/// particle distance outside it (METHODS section 2, point of application), and carries a viscous dashpot.
+/// The piece of an outer face that belongs to a particle of the outer row, and its viscous dashpot. It moves
+/// with the particle, half a particle distance outside it, where the ground ends: the internal forces of a
+/// uniform stress add up to its traction there, and not at the particle.
 struct Face
 {
   std::int64_t particle;       ///< id
   double offset_x, offset_y;   ///< from the particle to the face, m
   double dashpot_x, dashpot_y; ///< impedance times area, N s/m per m
 };
+
+/// Whether a particle so far (m) from an outer face belongs to the row along it: that row stands half a
+/// particle distance `size` inside, the next one and a half.
+inline bool in_outer_row(double distance, double size)
+{
+  return distance <= 0.75 * size;
+}
 
 /// Faces of the outer row of particles at `edge`, whose line is at `position` (m); `size` is the particle
 /// distance h/n. Impedances rho c are those of each particle's own material (eqs. 4, 5).
@@ -23,7 +31,7 @@ std::vector<Face> find_faces(const Domain& domain, Edge edge, double position, d
 /// What of the faces' dashpots acts at one grid node.
 struct FaceNode
 {
-  int node, column, row;       ///< place in the node fields, column and row of the grid
+  int node, column, row;       ///< index in the node fields, column and row of the grid
   double dashpot_x, dashpot_y; ///< N s/m per m
   double drive_x, drive_y;     ///< force of the dashpots' own far ends, N per m
 };
@@ -32,10 +40,10 @@ struct FaceNode
 class FaceNodes
 {
 public:
-  /// Spreads the dashpots of `faces` over the 16 nodes around each, where they stand now. Face k has a far
-  /// end of its own that moves with `far_end`[k], m/s; empty for none.
-  void find(const Grid& grid, const Particles& particles, const std::vector<Face>& faces,
-            std::span<const std::array<double, 2>> far_end = {});
+  /// Spreads the dashpots of `faces` over the 16 nodes around each, where they stand now: c_i = sum
+  /// N_i(x_face) c. Face k has a far end of its own that moves with `far_end`[k], m/s; empty for none.
+  void spread(const Grid& grid, const Particles& particles, const std::vector<Face>& faces,
+              std::span<const std::array<double, 2>> far_end = {});
 
   auto begin() const { return nodes_.begin(); }
   auto end() const { return nodes_.end(); }

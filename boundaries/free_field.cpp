@@ -7,11 +7,6 @@
 
 namespace mpm
 {
-namespace
-{
-constexpr double strip = 4; // cells of ghost rows beyond the face, as for frozen images
-}
-
 FreeFieldColumn::FreeFieldColumn(std::unique_ptr<Domain> owned, double side)
     : domain(std::move(owned)), side_(side)
 {
@@ -41,7 +36,7 @@ void FreeFieldColumn::note_motion(double dt)
   {
     const int node = g.node(0, first_row + row);
     if (node < 0 || g.mass[node] <= 0) continue;
-    // What the equation of motion says; where inertia is consistent, the model corrects its own.
+    // Of the lumped equation of motion: where inertia is consistent, the model corrects its own nodes.
     velocity[row] = g.forced_velocity(node);
     const auto [ax, ay] = g.velocity_change(node);
     acceleration[row] = {ax / dt, ay / dt};
@@ -79,6 +74,9 @@ FreeFieldBase FreeFieldColumn::base() const
   return {side_, {p.x[k] - p.reference_x[k], p.y[k] - p.reference_y[k]}};
 }
 
+/// Each particle within image_cells of the side has a ghost mirrored at it, with the load of the column's row
+/// that is nearest in the undeformed ground. Particles of the base's outer row have a ghost of their dashpot
+/// too.
 void FreeFieldSide::begin(const Domain& domain, double position, double bottom, double size)
 {
   faces_ = find_faces(domain, edge_, position, size);
@@ -89,7 +87,7 @@ void FreeFieldSide::begin(const Domain& domain, double position, double bottom, 
   for (int id = 0; id < p.size(); ++id)
   {
     const int k = domain.particles.index_of[id];
-    if (std::fabs(p.x[k] - position) > strip * domain.grid.spacing) continue;
+    if (std::fabs(p.x[k] - position) > image_cells * domain.grid.spacing) continue;
     Image ghost;
     ghost.parent = id;
     ghost.offset.x() = 2 * (position - p.x[k]);
@@ -129,7 +127,7 @@ std::array<double, 2> FreeFieldSide::base_velocity(int row) const
 void FreeFieldSide::add_forces(Domain& domain, double dt)
 {
   Grid& g = domain.grid;
-  nodes_.find(g, domain.particles, faces_);
+  nodes_.spread(g, domain.particles, faces_);
   for (const FaceNode& at : nodes_)
   {
     const auto [vx, vy] = column_velocity(at.row);
@@ -157,11 +155,13 @@ void FreeFieldSide::load_ghosts()
   }
 }
 
+/// Below the ghost rows the base goes on: its dashpots' force c (2 v_up - v_column) on nodes that hold
+/// ground.
 void FreeFieldSide::add_ghost_base(Domain& domain, double dt)
 {
   const auto [ux, uy] = wave_->velocity(domain.time + 0.5 * dt);
   Grid& g = domain.grid;
-  ghost_nodes_.find(g, domain.particles, ghost_base_);
+  ghost_nodes_.spread(g, domain.particles, ghost_base_);
   for (const FaceNode& at : ghost_nodes_)
   {
     if (g.mass[at.node] <= 0) continue;

@@ -5,8 +5,10 @@
 
 namespace mpm
 {
-/// A free-field column: a domain one cell wide, and what the model's side needs of its step (METHODS section
-/// 5).
+/// A free-field column, the level ground beside the model: a domain one cell wide and wrapped, which makes it
+/// a column of ground in one dimension (Grid::wrapped), with the rows, materials and base of the model's
+/// outermost column of particles. It makes each step before the model does, feels nothing of the model, and
+/// keeps what the model's side needs.
 class FreeFieldColumn
 {
 public:
@@ -40,9 +42,16 @@ private:
   std::vector<std::int64_t> ids_; ///< from the bottom up
 };
 
-/// A free-field side (paper eqs. 5, 6 in the form of METHODS section 5): beyond the face stand ghost rows
-/// that carry the column's dynamic stress and inertia, and dashpots tie the face to the column node by node.
-/// Without a column it is a quiet side: dashpots against the ground at rest.
+/// A free-field side. The paper (eqs. 5 and 6) puts on the face with the outward normal n the traction
+///
+///   t = (sigma_col - sigma_col,static) n + eta_p (v_col - v)_n + eta_s (v_col - v)_t,
+///
+/// printed with the signs of a right side. The dashpots act here node by node, against the velocity of the
+/// column's node in the same row, as both grids have the same rows. The column's dynamic stress acts as that
+/// of the ground itself would: ghost rows beyond the face carry it, with their inertia, so that a level model
+/// moves as its column does, where tractions on the face would leave a per mille of difference. The static
+/// part is that of the frozen images. Without a column it is a quiet side: dashpots against the ground at
+/// rest.
 class FreeFieldSide final : public Boundary
 {
 public:

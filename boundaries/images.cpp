@@ -4,75 +4,11 @@
 #include "solver/mpm/state_problem.hpp"
 
 #include <algorithm>
-#include <numeric>
+#include <cmath>
 #include <tuple>
 
 namespace mpm
 {
-namespace
-{
-/// Cells beyond a wall that images must fill: two are reached by a ghost node two cells out (METHODS section
-/// 3).
-constexpr double strip = 4;
-
-/// An image with its load.
-struct Loaded
-{
-  Image image;
-  ImageLoad load;
-};
-
-/// Mirrors an image (or a particle, taken as its own image) at one more wall: X* = M X, Sigma* = S Sigma M.
-Loaded mirror(const Loaded& original, const Wall& wall, const Eigen::Vector2d& parent, double wall_position)
-{
-  const int normal = wall.normal == Direction::x ? 0 : 1;
-  const double S[] = {wall.image_sign_x(), wall.image_sign_y()};
-  const double M[] = {normal == 0 ? -1. : 1., normal == 1 ? -1. : 1.};
-  auto [image, load] = original;
-  image.offset[normal] = 2 * wall_position - 2 * parent[normal] - image.offset[normal];
-  for (int c = 0; c < 2; ++c)
-  {
-    load.stress_x[c] *= S[c] * M[0];
-    load.stress_y[c] *= S[c] * M[1];
-    load.weight[c] *= S[c];
-  }
-  return {image, load};
-}
-} // namespace
-
-Images make_images(const Domain& domain, std::span<const Wall> walls)
-{
-  Images result;
-  const Particles& p = domain.particles;
-  const Grid& g = domain.grid;
-  for (int k = 0; k < p.size(); ++k) // as they stand, so that neighbours' loads are neighbours
-  {
-    const double V = p.volume[k], m = p.mass[k];
-    const Loaded self{{.parent = p.id[k]},
-                      {.stress_x = {V * p.stress_xx[k], V * p.stress_xy[k]},
-                       .stress_y = {V * p.stress_xy[k], V * p.stress_yy[k]},
-                       .weight = {m * domain.settings.gravity_x, m * domain.settings.gravity_y}}};
-    std::vector<Loaded> family{self};
-    const Eigen::Vector2d parent(p.x[k], p.y[k]);
-    for (const Wall& wall : walls)
-    {
-      const double position = parent[wall.normal == Direction::x ? 0 : 1];
-      const double line = (wall.normal == Direction::x ? g.origin_x : g.origin_y) + wall.line * g.spacing;
-      if (std::fabs(position - line) > strip * g.spacing) continue;
-      const std::size_t known = family.size();
-      for (std::size_t member = 0; member < known; ++member)
-        family.push_back(mirror(family[member], wall, parent, line));
-    }
-    for (std::size_t member = 1; member < family.size(); ++member)
-    {
-      family[member].image.load = static_cast<int>(result.loads.size());
-      result.list.push_back(family[member].image);
-      result.loads.push_back(family[member].load);
-    }
-  }
-  return result;
-}
-
 void Images::release(const Particles& particles)
 {
   std::erase_if(list, [&](const Image& image) { return particles.index_of[image.parent] < 0; });
@@ -99,17 +35,17 @@ void Images::bind(const Grid& grid, const Particles& p)
   bound_.clear();
   for (const Image& image : list)
     bound_.push_back({image.offset.x(), image.offset.y(), p.index_of[image.parent], image.load});
-  homes_.clear();
+  blocks_.clear();
   work_ = {};
   for (int k = 0; k < static_cast<int>(list.size()); ++k)
   {
     const BlockIndex block = list[k].block;
-    if (homes_.empty() || homes_.back().block != block)
-      homes_.push_back({block, grid.around(block), k, k, false, {}});
-    homes_.back().end = k + 1;
+    if (blocks_.empty() || blocks_.back().block != block)
+      blocks_.push_back({block, grid.around(block), k, k, false, {}});
+    blocks_.back().end = k + 1;
   }
-  for (const ImageHome& occupied : homes_)
-    work_.add(static_cast<int>(work_.items.size()), occupied.end - occupied.begin);
+  for (const ImageBlock& block : blocks_)
+    work_.add(static_cast<int>(work_.items.size()), block.end - block.begin);
 }
 
 namespace
@@ -127,7 +63,7 @@ RowAccelerations accelerations(BlockIndex block, const Images::Rows& rows)
   return result;
 }
 
-/// Where the images of a chunk stand, and their loads less the factors of the stencils.
+/// Positions of a chunk's images, and their loads over the factors of the stencils.
 struct ImageSources
 {
   double x[chunk_size], y[chunk_size];
@@ -200,38 +136,37 @@ private:
 } // namespace
 
 template <bool inertia>
-void Images::scatter(const Grid& grid, const Particles& particles, ImageHome& occupied,
-                     const Rows& rows) const
+void Images::scatter(const Grid& grid, const Particles& particles, ImageBlock& block, const Rows& rows) const
 {
-  occupied.force.value.fill(0);
-  const RowAccelerations a = inertia ? accelerations(occupied.block, rows) : RowAccelerations{};
-  const TileStencils tile(grid, occupied.block);
+  block.force.value.fill(0);
+  const RowAccelerations a = inertia ? accelerations(block.block, rows) : RowAccelerations{};
+  const TileStencils tile(grid, block.block);
   ChunkStencils stencils;
   ImageSources from;
-  for (int begin = occupied.begin; begin < occupied.end; begin += chunk_size)
+  for (int begin = block.begin; begin < block.end; begin += chunk_size)
   {
-    const int count = std::min(chunk_size, occupied.end - begin);
+    const int count = std::min(chunk_size, block.end - begin);
     from.take(std::span(bound_).subspan(begin), loads, particles, grid.spacing, count);
-    stencils.find(tile, from.x, from.y, count);
+    stencils.fill(tile, from.x, from.y, count);
     for (int k = 0; k < count;)
     {
-      const int node = stencils.place.node[k];
+      const int node = stencils.cells.node[k];
       ImageSums<inertia> sums(node);
-      for (; k < count && stencils.place.node[k] == node; ++k) sums.add(k, stencils, from.load[k]);
-      sums.flush(a, occupied.force);
+      for (; k < count && stencils.cells.node[k] == node; ++k) sums.add(k, stencils, from.load[k]);
+      sums.flush(a, block.force);
     }
   }
 }
 
-std::array<double, 2> Images::gather(Grid& g, const ImageHome& occupied)
+std::array<double, 2> Images::gather(Grid& g, const ImageBlock& block)
 {
   std::array<double, 2> sum{};
-  for_each_run(g, occupied.around,
-               [&](int node, int place, int count)
+  for_each_run(g, block.around,
+               [&](int node, int at, int count)
                {
                  for (int k = 0; k < count; ++k)
                  {
-                   const double* force = &occupied.force.value[2 * (place + k)];
+                   const double* force = &block.force.value[2 * (at + k)];
                    if (g.mass[node + k] <= 0) continue;
                    sum[0] += force[0];
                    sum[1] += force[1];
@@ -245,21 +180,20 @@ std::array<double, 2> Images::gather(Grid& g, const ImageHome& occupied)
 std::array<double, 2> Images::add_forces(Domain& domain, const Rows& rows)
 {
   const bool rests = domain.blocks.rests();
-  for (ImageHome& occupied : homes_) occupied.hidden = rests && !domain.blocks.awake_around(occupied.around);
+  for (ImageBlock& block : blocks_) block.hidden = rests && !domain.blocks.awake_around(block.around);
   parallel::for_each(work_,
                      [&](int k)
                      {
-                       ImageHome& occupied = homes_[k];
-                       if (occupied.hidden) return;
-                       rows.acceleration.empty()
-                           ? scatter<false>(domain.grid, domain.particles, occupied, rows)
-                           : scatter<true>(domain.grid, domain.particles, occupied, rows);
+                       ImageBlock& block = blocks_[k];
+                       if (block.hidden) return;
+                       rows.acceleration.empty() ? scatter<false>(domain.grid, domain.particles, block, rows)
+                                                 : scatter<true>(domain.grid, domain.particles, block, rows);
                      });
   std::array<double, 2> sum{};
-  for (const ImageHome& occupied : homes_)
+  for (const ImageBlock& block : blocks_)
   {
-    if (occupied.hidden) continue;
-    const auto [x, y] = gather(domain.grid, occupied);
+    if (block.hidden) continue;
+    const auto [x, y] = gather(domain.grid, block);
     sum[0] += x;
     sum[1] += y;
   }
@@ -269,73 +203,21 @@ std::array<double, 2> Images::add_forces(Domain& domain, const Rows& rows)
 double Images::work(const Grid& g, double dt) const
 {
   double power = 0;
-  for (const ImageHome& occupied : homes_)
+  for (const ImageBlock& block : blocks_)
   {
-    if (occupied.hidden) continue;
-    for_each_run(g, occupied.around,
-                 [&](int node, int place, int count)
+    if (block.hidden) continue;
+    for_each_run(g, block.around,
+                 [&](int node, int at, int count)
                  {
                    for (int k = 0; k < count; ++k)
                    {
                      const auto [vx, vy] = g.middle_velocity(node + k);
-                     const double* force = &occupied.force.value[2 * (place + k)];
+                     const double* force = &block.force.value[2 * (at + k)];
                      power += force[0] * vx + force[1] * vy;
                    }
                  });
   }
   return dt * power;
-}
-
-void FrozenImages::bind(const Domain& domain)
-{
-  images_.bind(domain.grid, domain.particles);
-  mass_ = std::accumulate(domain.particles.mass.begin(), domain.particles.mass.end(), 0.0);
-}
-
-void FrozenImages::add_forces(Domain& domain, double)
-{
-  const std::array<double, 2> now = images_.add_forces(domain, {});
-  if (resultant_.empty()) resultant_.push_back(now);
-  // Sleeping ground hides its images: the correction stays what it was, as the ground does.
-  if (!domain.blocks.rests())
-    correction_[0] = {(resultant_[0][0] - now[0]) / mass_, (resultant_[0][1] - now[1]) / mass_};
-  const auto [ax, ay] = correction_[0];
-  Grid& g = domain.grid;
-  g.for_each_block(
-      [&g, ax = ax, ay = ay](int block)
-      {
-        for (int k = block * block_nodes; k < (block + 1) * block_nodes; ++k)
-        {
-          g.force_x[k] += g.mass[k] * ax;
-          g.force_y[k] += g.mass[k] * ay;
-        }
-      });
-}
-
-void FrozenImages::measure_work(const Domain& domain, double dt, Energies& now) const
-{
-  const auto [px, py] = domain.energy.step.momentum;
-  now[Energy::reaction] +=
-      images_.work(domain.grid, dt) + dt * (correction_[0][0] * px + correction_[0][1] * py);
-}
-
-void FrozenImages::visit_state(StateVisitor& visitor)
-{
-  images_.visit_list(visitor, "image_");
-  images_.visit_loads(visitor, "image_load_");
-  RecordVisitor<std::array<double, 2>> sum(visitor, "image_resultant_", resultant_);
-  sum.each("x", "N/m", [](auto& force) -> double& { return force[0]; });
-  sum.each("y", "N/m", [](auto& force) -> double& { return force[1]; });
-  RecordVisitor<std::array<double, 2>> correction(visitor, "image_correction_", correction_);
-  correction.each("x", "m/s2", [](auto& acceleration) -> double& { return acceleration[0]; });
-  correction.each("y", "m/s2", [](auto& acceleration) -> double& { return acceleration[1]; });
-}
-
-std::string FrozenImages::state_problem(const Domain& domain) const
-{
-  if (resultant_.size() > 1 || correction_.size() != 1)
-    return "the images' resultant or correction is not one";
-  return images_.problem(domain.grid, domain.particles, images_.loads.size());
 }
 
 std::string Images::problem(const Grid& grid, const Particles& p, std::size_t loads_there) const

@@ -18,14 +18,20 @@ struct Wall
   int inward;
   bool slip; ///< slides along the wall; otherwise it sticks
 
-  /// Sign of a vector's x and y component in the mirror image: S of METHODS section 2.
+  /// Signs of a vector's x and y component in the mirror image, S: the normal component turns round; so does
+  /// the tangential one where the wall sticks.
   double image_sign_x() const { return slip && normal == Direction::y ? 1 : -1; }
   double image_sign_y() const { return slip && normal == Direction::x ? 1 : -1; }
 };
 
-/// Kinematic wall by mirrored particles (Schulz & Sutmann 2019), done as a fold of the nodes: image particles
-/// are never made (METHODS section 2). Walls of one domain are folded one after the other, which makes the
-/// corners.
+/// Kinematic wall by mirrored particles (Schulz & Sutmann, Proc. PARTICLES 2019, 522-533), without making
+/// them. The image of a particle has its weight at the mirror node, N_i(x*) = N_i*(x), so that all images
+/// together are a fold of the nodes:
+///
+///   m_i += m_i*,   P_i += S P_i*,   f_i += S f_i*,
+///
+/// and the same with i and i* exchanged. A node on the wall is its own mirror node: what turns round vanishes
+/// there, the rest doubles. Walls of one domain are folded one after the other, which makes the corners.
 class MirroredWall final : public Boundary
 {
 public:
@@ -36,6 +42,7 @@ public:
 
 private:
   void share_nodes(Grid& grid) const;
+  /// Indices of a node and its mirror node beyond the wall.
   struct Pair
   {
     int inside, ghost;

@@ -15,7 +15,7 @@ constexpr int steps_a_period = 20;
 constexpr double shortest = 0.05, longest = 4; // s, the periods of ground and buildings
 constexpr int period_count = 60;
 
-std::size_t place_of_peak(const Series& x)
+std::size_t index_of_peak(const Series& x)
 {
   const auto magnitude = [](double value) { return std::abs(value); };
   return static_cast<std::size_t>(std::ranges::max_element(x, {}, magnitude) - x.begin());
@@ -87,12 +87,12 @@ bool MotionMeasures::finite() const
 MotionMeasures measure(const Series& v, const Series& a, double dt, double factor)
 {
   const Series u = displacement(v, a, dt), sum = squares(a, dt);
-  const std::size_t peak = place_of_peak(a);
+  const std::size_t peak = index_of_peak(a);
   MotionMeasures result;
   result.pga = factor * std::abs(a[peak]);
   result.pga_time = dt * double(peak);
-  result.pgv = factor * std::abs(v[place_of_peak(v)]);
-  result.pgd = factor * std::abs(u[place_of_peak(u)]);
+  result.pgv = factor * std::abs(v[index_of_peak(v)]);
+  result.pgd = factor * std::abs(u[index_of_peak(u)]);
   result.arias = factor * factor * 0.5 * pi / standard_gravity * sum.back();
   result.d5_95 = dt * (reached(sum, 0.95 * sum.back()) - reached(sum, 0.05 * sum.back()));
   result.final_velocity = factor * v.back();

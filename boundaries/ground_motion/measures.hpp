@@ -32,8 +32,9 @@ MotionMeasures measure(const std::vector<double>& v, const std::vector<double>& 
 inline constexpr double usual_damping = 0.05;
 
 /// Pseudo-acceleration spectrum w^2 max |u| (m/s2) at the periods (s): u'' + 2 xi w u' + w^2 u = -a, at rest
-/// at the first sample, in exact steps for an acceleration that is linear between samples (Nigam and Jennings
-/// 1969), of at most a twentieth of the period, so that at most 1.2 % of a peak is missed.
+/// at the first sample, in exact steps for an acceleration that is linear between samples (Nigam and
+/// Jennings, Bull. Seismol. Soc. Am. 59 (1969) 909), of at most a twentieth of the period, so that at
+/// most 1.2 % of a peak is missed.
 std::vector<double> response_spectrum(const std::vector<double>& a, double dt,
                                       const std::vector<double>& periods, double damping = usual_damping);
 

@@ -1,3 +1,4 @@
+#include "boundaries/images.hpp"
 #include "io/case/sections.hpp"
 
 #include <algorithm>
@@ -107,8 +108,7 @@ double variation(const Case& case_file, const Surface& surface, double from, dou
 void refuse_slopes_on_sides(const Case& case_file, const YamlNode& tree, Problems& problems)
 {
   if (case_file.seismic.sides != SideKind::free_field) return;
-  constexpr int reach = 4; // cells
-  const double h = case_file.grid.spacing, strip = std::min(reach * h, case_file.domain.width());
+  const double h = case_file.grid.spacing, strip = std::min(image_cells * h, case_file.domain.width());
   for (const auto& [side, from] :
        {std::pair{"left", case_file.domain.left}, std::pair{"right", case_file.domain.right - strip}})
   {

@@ -93,7 +93,7 @@ void save_homes(h5::Group group, const Domain& domain)
 {
   std::vector<std::int64_t> table;
   for (const OccupiedBlock& occupied : domain.blocks.occupied)
-    for (const Range& r : occupied.ranges)
+    for (const ParticleRange& r : occupied.ranges)
       table.insert(table.end(), {occupied.block.x, occupied.block.y, r.material, r.begin, r.end});
   group.attribute("spacing", domain.grid.spacing);
   group.attribute("origin", std::vector<double>{domain.grid.origin_x, domain.grid.origin_y});

@@ -1,4 +1,6 @@
-// Which particle stands where: the stable sort, the blocks, and the grid that follows from them.
+// Which particle is in which block: the stable sort, the blocks, and the grid that follows from them.
+// Particles keep their order within a cell from sort to sort, so that sums over them are the same on any
+// number of threads and after a restart.
 
 #include "solver/mpm/domain.hpp"
 
@@ -10,7 +12,8 @@ namespace mpm
 {
 namespace
 {
-/// Sort key of a particle: block, then cell in it (row by row).
+/// Sort key of a particle: block, then cell in it, row by row: particles of a cell are neighbours, so that
+/// their stencils' sums are added to the tile once a cell.
 struct Key
 {
   BlockIndex block;
@@ -24,7 +27,7 @@ Key key_of(const Grid& grid, double x, double y)
   const int i = static_cast<int>(std::floor((x - grid.origin_x) * grid.inverse_spacing()));
   const int j = static_cast<int>(std::floor((y - grid.origin_y) * grid.inverse_spacing()));
   const BlockIndex block{grid.wrapped ? 0 : block_of(i), block_of(j)};
-  return {block, (j & (block_cells - 1)) * block_cells + (i & (block_cells - 1))};
+  return {block, index_in_block(i, j)};
 }
 
 template <class T>
@@ -35,8 +38,8 @@ void permute(std::vector<T>& values, const std::vector<int>& order, int from)
   std::copy_n(sorted.get(), order.size(), values.begin() + from);
 }
 
-/// Sorts the particles of one material and appends its stretches, block by block.
-void sort_material(Domain& domain, int material, std::vector<std::pair<BlockIndex, Range>>& stretches)
+/// Sorts the particles of one material and appends its ranges, block by block.
+void sort_material(Domain& domain, int material, std::vector<std::pair<BlockIndex, ParticleRange>>& ranges)
 {
   Particles& p = domain.particles;
   const int begin = domain.material_begin[material], count = domain.material_begin[material + 1] - begin;
@@ -56,12 +59,12 @@ void sort_material(Domain& domain, int material, std::vector<std::pair<BlockInde
   for (int k = 0; k < count; ++k)
   {
     const BlockIndex block = keys[order[k]].block;
-    if (k == 0 || block != stretches.back().first)
-      stretches.push_back({block, {material, begin + k, begin + k}});
-    stretches.back().second.end = begin + k + 1;
+    if (k == 0 || block != ranges.back().first) ranges.push_back({block, {material, begin + k, begin + k}});
+    ranges.back().second.end = begin + k + 1;
   }
 }
 
+/// The occupied blocks and the eight around each, which their particles' stencils reach.
 std::vector<BlockIndex> with_surroundings(const Domain& domain)
 {
   std::vector<BlockIndex> wanted;
@@ -102,14 +105,14 @@ void rebuild(Domain& domain)
 
 void sort_particles(Domain& domain)
 {
-  std::vector<std::pair<BlockIndex, Range>> stretches;
+  std::vector<std::pair<BlockIndex, ParticleRange>> ranges;
   for (std::size_t k = 0; k < domain.materials.size(); ++k)
-    sort_material(domain, static_cast<int>(k), stretches);
-  std::stable_sort(stretches.begin(), stretches.end(),
+    sort_material(domain, static_cast<int>(k), ranges);
+  std::stable_sort(ranges.begin(), ranges.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   const std::vector<OccupiedBlock> before = std::move(domain.blocks.occupied);
   domain.blocks.occupied.clear();
-  for (const auto& [block, range] : stretches)
+  for (const auto& [block, range] : ranges)
   {
     if (domain.blocks.occupied.empty() || domain.blocks.occupied.back().block != block)
     {
@@ -159,7 +162,7 @@ double greatest_speed(const Particles& p)
 void check_particles(const Domain& domain, const std::vector<double>& reference_volume)
 {
   const Particles& p = domain.particles;
-  const auto place = [&](int k)
+  const auto particle = [&](int k)
   {
     return domain.name + ": particle " + std::to_string(p.id[k]) + " at x = " + std::to_string(p.x[k]) +
            " m, y = " + std::to_string(p.y[k]) + " m, t = " + std::to_string(domain.time) + " s ";
@@ -167,9 +170,9 @@ void check_particles(const Domain& domain, const std::vector<double>& reference_
   for (int k = 0; k < p.size(); ++k)
   {
     const double all = p.x[k] + p.y[k] + p.stress_xx[k] + p.stress_yy[k] + p.stress_zz[k] + p.stress_xy[k];
-    if (!std::isfinite(all)) throw Diverged(place(k) + "is not finite");
+    if (!std::isfinite(all)) throw Diverged(particle(k) + "is not finite");
     if (p.volume[k] < 0.1 * reference_volume[p.id[k]])
-      throw Diverged(place(k) + "is squeezed below a tenth of its volume");
+      throw Diverged(particle(k) + "is squeezed below a tenth of its volume");
   }
 }
 } // namespace mpm

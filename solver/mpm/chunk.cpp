@@ -4,19 +4,20 @@ namespace mpm
 {
 namespace
 {
-/// Particles up to a whole number of lanes.
+/// `count` up to a whole number of lanes.
 int filled(int count)
 {
   static_assert(chunk_size % lanes == 0 && lanes % 2 == 0);
   return (count + lanes - 1) / lanes * lanes;
 }
 
-/// Where some points stand in one direction: the cell, and the fraction of it.
-struct Located
+/// The cells in which some points stand, along one direction, and how far into them: x = from + h (cell +
+/// fraction).
+struct CellLanes
 {
   Lanes cell, fraction;
 
-  Located(const Lanes& position, double from, double inverse)
+  CellLanes(const Lanes& position, double from, double inverse)
   {
     const Lanes local = (position - from) * inverse;
     cell = floor_of(local);
@@ -25,15 +26,15 @@ struct Located
 };
 } // namespace
 
-void ChunkPlaces::find(const TileStencils& tile, const double* __restrict x, const double* __restrict y,
-                       int count)
+void ChunkCells::fill(const TileStencils& tile, const double* __restrict x, const double* __restrict y,
+                      int count)
 {
   const double inverse = 1 / tile.spacing();
-  constexpr int first = TileStencils::place(-1, -1);
+  constexpr int first = tile_index(-1, -1); // a stencil begins a node before its cell
   for (int k = 0; k < count; k += lanes)
   {
-    const Located column(load_first(x + k, count - k), tile.from_x(), inverse);
-    const Located row(load_first(y + k, count - k), tile.from_y(), inverse);
+    const CellLanes column(load_first(x + k, count - k), tile.from_x(), inverse);
+    const CellLanes row(load_first(y + k, count - k), tile.from_y(), inverse);
     store(&x_fraction[k], column.fraction);
     store(&y_fraction[k], row.fraction);
     store_integers(&node[k], tile_stride * row.cell + column.cell + first);
@@ -46,7 +47,7 @@ void ChunkPlaces::find(const TileStencils& tile, const double* __restrict x, con
   }
 }
 
-void LaneSplines::find(const double* __restrict fraction, int count)
+void LaneSplines::fill(const double* __restrict fraction, int count)
 {
   const int all = filled(count);
 #pragma GCC unroll 4
@@ -60,7 +61,7 @@ void LaneSplines::find(const double* __restrict fraction, int count)
     }
 }
 
-void RowSplines::find(const double* fraction, int count)
+void RowSplines::fill(const double* fraction, int count)
 {
   fraction_ = fraction;
   if constexpr (!two_rows_a_register) return;

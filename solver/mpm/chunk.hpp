@@ -1,4 +1,7 @@
 #pragma once
+// Particles by the chunk. A block's particles are worked on in chunks of 64 of one material: first all that
+// they need of the splines, in lanes of particles or rows of nodes, then the sums. The compiler makes vectors
+// of both; particle by particle it could not, since each one's nodes are somewhere else.
 
 #include "solver/mpm/domain.hpp"
 #include "solver/mpm/spline.hpp"
@@ -8,7 +11,7 @@
 
 namespace mpm
 {
-/// Where a block's particles stand in its tile: turns positions (m) into stencils, one after the other.
+/// Turns positions (m) of a block's particles into stencils that count nodes from the block's first.
 class TileStencils
 {
 public:
@@ -17,52 +20,51 @@ public:
         from_y_(grid.origin_y + grid.spacing * block_cells * block.y)
   {
   }
-  /// Stencils of a direction; nodes count from the block's first.
   Stencil x(double position) const { return cubic_stencil(position - from_x_, spacing_); }
   Stencil y(double position) const { return cubic_stencil(position - from_y_, spacing_); }
-  /// Place of the first node of a stencil in the tile.
-  static int first_node(const Stencil& x, const Stencil& y) { return place(x.first, y.first); }
-  static constexpr int place(int i, int j) { return (j + tile_margin) * tile_stride + i + tile_margin; }
+  /// Index in the tile of the first of a stencil's nodes.
+  static int first_node(const Stencil& x, const Stencil& y) { return tile_index(x.first, y.first); }
 
-  double spacing() const { return spacing_; }
-  double from_x() const { return from_x_; }
+  double spacing() const { return spacing_; } ///< m
+  double from_x() const { return from_x_; }   ///< of the block's first node, m
   double from_y() const { return from_y_; }
 
 private:
   double spacing_, from_x_, from_y_;
 };
 
-/// Products of the splines of both directions come with these factors, which are taken out particle by
-/// particle: weight and weight; slope and weight, over 1/h; moment and weight, over h.
+/// Splines come with the factors of Spline; what is left of them to divide by in a product of both directions
+/// is taken out once a particle: weight times weight; slope times weight, which still lacks 1/h; moment times
+/// weight, which still lacks h.
 inline constexpr double inverse_weights = 1 / (spline_weight * spline_weight),
                         inverse_slopes = 1 / (spline_slope * spline_weight);
 
-/// Where a chunk of particles stands in its tile.
-struct ChunkPlaces
+/// The cells in which a chunk of particles stands.
+struct ChunkCells
 {
-  alignas(64) double x_fraction[chunk_size], y_fraction[chunk_size]; ///< of the cell
-  alignas(64) int node[chunk_size]; ///< first node of the stencil in the tile
+  alignas(64) double x_fraction[chunk_size], y_fraction[chunk_size]; ///< position in the cell, 0 to 1
+  alignas(64) int node[chunk_size]; ///< index in the tile of the first node of the stencil
 
-  /// Fills the places of `count` particles of a tile, and of as many as fill the lanes with the last one.
-  void find(const TileStencils& tile, const double* __restrict x, const double* __restrict y, int count);
+  /// Fills in `count` particles of a tile at x, y (m), and repeats the last one until the lanes are full.
+  void fill(const TileStencils& tile, const double* __restrict x, const double* __restrict y, int count);
 };
 
-/// Splines of a chunk's particles along one direction, node by node of the stencil.
+/// Splines of a chunk's particles along one direction, node by node of the stencil: a lane for each particle.
 struct LaneSplines
 {
   alignas(64) double weight[4][chunk_size], slope[4][chunk_size], moment[4][chunk_size];
 
-  /// Fills those of `count` particles, and of as many as fill the lanes.
-  void find(const double* __restrict fraction, int count);
+  /// Fills in `count` particles by their fraction of the cell, and as many as fill the lanes.
+  void fill(const double* __restrict fraction, int count);
 };
 
-/// The same, particle by particle: a row of nodes each.
+/// The same, particle by particle: a row of nodes for each.
 class RowSplines
 {
 public:
-  /// Fills the rows of `count` particles, two at a time where a register holds both, or leaves them to find
-  /// one by one.
-  void find(const double* fraction, int count);
+  /// Fills in `count` particles, two at a time where a register holds both rows; otherwise they are found one
+  /// by one when they are asked for.
+  void fill(const double* fraction, int count);
   /// Of particle k.
   Spline<Row> operator[](int k) const
   {
@@ -77,29 +79,30 @@ private:
   alignas(64) double weight_[chunk_size][4], slope_[chunk_size][4], moment_[chunk_size][4];
 };
 
-/// Stencils of a chunk of particles that bring something to the grid, one after the other.
+/// What a chunk of particles needs to bring something to the grid, one particle after the other.
 struct ChunkStencils
 {
-  ChunkPlaces place;
+  ChunkCells cells;
   RowSplines x;
   LaneSplines y;
 
-  void find(const TileStencils& tile, const double* px, const double* py, int count)
+  void fill(const TileStencils& tile, const double* px, const double* py, int count)
   {
-    place.find(tile, px, py, count);
-    x.find(place.x_fraction, count);
-    y.find(place.y_fraction, count);
+    cells.fill(tile, px, py, count);
+    x.fill(cells.x_fraction, count);
+    y.fill(cells.y_fraction, count);
   }
 };
 
-/// Brings the particles of the next chunk near, a little with every particle of this one.
-struct Ahead
+/// Fetches the particles of the next chunk into the cache, a little with every particle of this one: more
+/// arrays are read side by side than the processor follows on its own.
+struct Prefetch
 {
   std::array<const double*, 16> stream; ///< fields at this chunk's first particle
 
   /// The fields that both transfers read, and three more.
-  [[gnu::always_inline]] Ahead(const Particles& p, int begin, const double* a, const double* b,
-                               const double* c)
+  [[gnu::always_inline]] Prefetch(const Particles& p, int begin, const double* a, const double* b,
+                                  const double* c)
       : stream{&p.x[begin],
                &p.y[begin],
                &p.mass[begin],
@@ -119,7 +122,7 @@ struct Ahead
   {
   }
 
-  /// A line, which holds particles k to k + 7, of a quarter of the fields. Called one by one, since the
+  /// A cache line, which holds particles k to k + 7, of a quarter of the fields. Called one by one, since the
   /// compiler drops loops and functions that do nothing else.
   [[gnu::always_inline]] void fetch(int k, int quarter) const
   {
@@ -134,17 +137,17 @@ struct Ahead
 
 /// Calls f(begin, count) for the chunks of a range, in the order in which they are summed.
 template <class Function>
-void for_each_chunk(const Range& range, const Function& f)
+void for_each_chunk(const ParticleRange& range, const Function& f)
 {
   for (int begin = range.begin; begin < range.end; begin += chunk_size)
     f(begin, std::min(chunk_size, range.end - begin));
 }
 
-/// Calls f(material, begin, count) for the chunks of a occupied block block.
+/// Calls f(material, begin, count) for the chunks of a block.
 template <class Function>
-void for_each_chunk(const OccupiedBlock& occupied, const Function& f)
+void for_each_chunk(const OccupiedBlock& block, const Function& f)
 {
-  for (const Range& range : occupied.ranges)
+  for (const ParticleRange& range : block.ranges)
     for_each_chunk(range, [&](int begin, int count) { f(range.material, begin, count); });
 }
 } // namespace mpm

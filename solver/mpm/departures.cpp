@@ -6,7 +6,8 @@ namespace mpm
 {
 namespace
 {
-/// Drops the values at places that leave; `from` is the place of the first value.
+/// Drops the values of the particles that leave; `from` is the index of the particle that the first belongs
+/// to.
 template <class T>
 void drop(std::vector<T>& values, std::span<const Leaving> leaving, int from)
 {
@@ -14,16 +15,16 @@ void drop(std::vector<T>& values, std::span<const Leaving> leaving, int from)
   std::size_t kept = 0;
   for (std::size_t k = 0; k < values.size(); ++k)
   {
-    const int place = from + static_cast<int>(k);
-    while (next != leaving.end() && next->place < place) ++next;
-    if (next == leaving.end() || next->place != place) values[kept++] = values[k];
+    const int index = from + static_cast<int>(k);
+    while (next != leaving.end() && next->index < index) ++next;
+    if (next == leaving.end() || next->index != index) values[kept++] = values[k];
   }
   values.resize(kept);
 }
 
-int material_of(const Domain& domain, int place)
+int material_of(const Domain& domain, int index)
 {
-  const auto next = std::upper_bound(domain.material_begin.begin(), domain.material_begin.end(), place);
+  const auto next = std::upper_bound(domain.material_begin.begin(), domain.material_begin.end(), index);
   return static_cast<int>(next - domain.material_begin.begin()) - 1;
 }
 
@@ -31,8 +32,8 @@ void note(Domain& domain, std::span<const Leaving> leaving)
 {
   const Particles& p = domain.particles;
   for (const Leaving& one : leaving)
-    domain.departed.push_back({p.id[one.place], material_of(domain, one.place), one.edge, domain.time,
-                               p.mass[one.place], p.reference_x[one.place], p.reference_y[one.place]});
+    domain.departed.push_back({p.id[one.index], material_of(domain, one.index), one.edge, domain.time,
+                               p.mass[one.index], p.reference_x[one.index], p.reference_y[one.index]});
 }
 
 void drop_particles(Domain& domain, std::span<const Leaving> leaving)
@@ -44,7 +45,7 @@ void drop_particles(Domain& domain, std::span<const Leaving> leaving)
   drop(p.id, leaving, 0);
   for (int& begin : domain.material_begin)
     begin -= static_cast<int>(
-        std::count_if(leaving.begin(), leaving.end(), [&](const Leaving& l) { return l.place < begin; }));
+        std::count_if(leaving.begin(), leaving.end(), [&](const Leaving& l) { return l.index < begin; }));
 }
 } // namespace
 

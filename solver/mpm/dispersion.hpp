@@ -1,7 +1,12 @@
 #pragma once
 // What the grid and the steps do to a plane wave: cubic B-splines, lumped or consistent inertia, affine
-// transfer, two or more particles per cell and direction. All from the growth factor z of a mode of wave
-// number k, z^2 - (G + 1 - dt^2 w^2) z + G = 0 (METHODS section 7), for k h << 1.
+// transfer, two or more particles per cell and direction. All follow from the growth factor z of a mode of
+// wave number k from step to step, for k h << 1. Symplectic Euler with a transfer that leaves G of the
+// velocity says
+//
+//   v' = G v - dt w^2 u,   u' = u + dt v',   so that   z^2 - (G + 1 - dt^2 w^2) z + G = 0,
+//
+// where w(k) is the grid's frequency and sqrt(G) the loss of amplitude in a step.
 
 #include <cmath>
 #include <numbers>
@@ -17,7 +22,8 @@ struct Resolution
   bool consistent_inertia = false; ///< see correct_inertia
 };
 
-/// The affine transfer leaves G = 1 - a (k h)^4 of a mode's velocity each step.
+/// a: the affine transfer leaves G = 1 - a (k h)^4 of a mode's velocity each step. Particles carry velocity
+/// and gradient, so that the transfer is exact for linear fields and takes what curves within a cell.
 inline constexpr double transfer_loss = 0.0471;
 
 /// Wave number times cell size of a wave of `speed` (m/s) and `frequency` (Hz).

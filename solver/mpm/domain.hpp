@@ -16,8 +16,8 @@
 
 namespace mpm
 {
-/// Consecutive particles of one material in one block.
-struct Range
+/// The particles [begin, end) of one material in one block.
+struct ParticleRange
 {
   int material;
   int begin, end;
@@ -28,19 +28,20 @@ struct OccupiedBlock
 {
   BlockIndex block;
   Neighbours around;
-  std::vector<Range> ranges;
-  bool asleep = false;                                       ///< see Rest
-  double greatest = std::numeric_limits<double>::infinity(); ///< speed in the time that Rest watches, m/s
+  std::vector<ParticleRange> ranges;
+  bool asleep = false; ///< see Rest
+  /// Greatest speed in the time that Rest watches, m/s.
+  double greatest = std::numeric_limits<double>::infinity();
 
   int particles() const
   {
     int sum = 0;
-    for (const Range& range : ranges) sum += range.end - range.begin;
+    for (const ParticleRange& range : ranges) sum += range.end - range.begin;
     return sum;
   }
 };
 
-/// A massless material point that moves with the interpolated grid velocity: a gauge.
+/// A massless point of the ground whose motion is recorded: it moves with the interpolated grid velocity.
 struct Gauge
 {
   double x, y;                     ///< position, m; not a number once its ground has left the domain
@@ -81,11 +82,12 @@ struct Blocks
   }
 };
 
-/// Force balance and motion of the last step, of nodes that carry more than 1 % of a full cell.
+/// How far the last step was from equilibrium, over the nodes that carry more than 1 % of a full cell:
+/// lighter ones at a ragged surface never come to rest.
 struct ForceBalance
 {
   double unbalanced = 0; ///< sum |f|, N per m
-  double total = 0;      ///< twice the weight, what |f_int| + |f_ext| come to in equilibrium, N per m
+  double total = 0;      ///< twice the weight: what |f_int| + |f_ext| come to in equilibrium, N per m
   double ratio() const { return total > 0 ? unbalanced / total : 0; }
 };
 
@@ -97,7 +99,7 @@ struct StepMeasures
   PhaseTimes times;         ///< of all steps since the program began
 };
 
-/// The run left the range in which explicit steps mean something (blow-up, not a number).
+/// The motion has blown up, or is no number any more.
 struct Diverged : std::runtime_error
 {
   using std::runtime_error::runtime_error;
@@ -132,15 +134,16 @@ struct Domain
 /// the boundaries.
 void sort_particles(Domain& domain);
 
-/// Rebuilds blocks, grid and bindings from the occupied blocks in place, without touching the order (after a
-/// restart).
+/// Makes grid, groups of blocks and bindings of the boundaries from Blocks::occupied and the order of the
+/// particles, both of which stay: after a sort or a restart.
 void rebuild(Domain& domain);
 
 /// Gives a domain its materials and makes room for counts[k] particles of material k, with ids 0 .. n-1 in
 /// that order; the caller fills their fields and sorts.
 void set_materials(Domain& domain, std::vector<Material> materials, const std::vector<int>& counts);
 
-/// Kinetic energy in J per m, with the affine part.
+/// Kinetic energy in J per m, sum m/2 (v^2 + h^2/3 C : C): the affine part is what particles give to the grid
+/// beside their velocity.
 double kinetic_energy(const Domain& domain);
 
 /// Greatest particle speed in m/s.

@@ -109,7 +109,7 @@ void book_departure(Domain& domain, const std::function<void()>& remove)
   const auto lost = [&](Energy term) { return before[term] - after[term]; };
   l.plastic -= lost(Energy::plastic);
   l.work -= lost(Energy::kinetic);
-  // Of the gravitational energy it is the half step that `energy_balance` takes back.
+  // Of the gravitational energy it is the half step that energies_of takes back.
   l.flow[Energy::departed] += lost(Energy::kinetic) + lost(Energy::elastic) + lost(Energy::gravitational);
 }
 
@@ -147,9 +147,9 @@ double unexplained_growth(const Energies& e)
          e[Energy::incoming] - e[Energy::reaction] - e[Energy::free_field];
 }
 
-void visit_energy_balance(StateVisitor& visitor, EnergyBalance& ledger)
+void visit_energy_balance(StateVisitor& visitor, EnergyBalance& balance)
 {
-  std::vector<EnergyBalance> one{ledger};
+  std::vector<EnergyBalance> one{balance};
   RecordVisitor<EnergyBalance> list(visitor, "", one);
   for (std::size_t k = 0; k < energy_terms.size(); ++k)
     list.each("flow_" + std::string(energy_terms[k].name), "J/m",
@@ -165,6 +165,6 @@ void visit_energy_balance(StateVisitor& visitor, EnergyBalance& ledger)
   list.member("gravity_x", "m/s2", &EnergyBalance::gravity_x);
   list.member("gravity_y", "m/s2", &EnergyBalance::gravity_y);
   if (one.size() != 1) throw std::runtime_error("energy holds no energy balance");
-  ledger = one.front();
+  balance = one.front();
 }
 } // namespace mpm

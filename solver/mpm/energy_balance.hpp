@@ -70,7 +70,7 @@ struct StepWork
   std::array<double, 2> momentum{}; ///< mean of the step's start and end, N s per m
 };
 
-/// Accumulated flows and opening state. Plain data; `account` keeps it, `energy_balance` reads it.
+/// Accumulated flows and opening state. Plain data; `account` keeps it, `energies_of` reads it.
 struct EnergyBalance
 {
   StepWork step;   ///< the last one
@@ -115,5 +115,5 @@ double largest_term(const Energies& balance);
 double unexplained_growth(const Energies& balance);
 
 /// Saves or loads the energy balance.
-void visit_energy_balance(StateVisitor& visitor, EnergyBalance& ledger);
+void visit_energy_balance(StateVisitor& visitor, EnergyBalance& balance);
 } // namespace mpm

@@ -7,16 +7,14 @@ namespace mpm
 int Grid::find(BlockIndex block) const
 {
   if (wrapped) block.x = 0;
-  const auto place = std::lower_bound(blocks.begin(), blocks.end(), block);
-  return place != blocks.end() && *place == block ? static_cast<int>(place - blocks.begin()) : -1;
+  const auto found = std::lower_bound(blocks.begin(), blocks.end(), block);
+  return found != blocks.end() && *found == block ? static_cast<int>(found - blocks.begin()) : -1;
 }
 
 int Grid::node(int i, int j) const
 {
   const int block = find({block_of(i), block_of(j)});
-  if (block < 0) return -1;
-  const int column = wrapped ? 0 : i & (block_cells - 1);
-  return block * block_nodes + (j & (block_cells - 1)) * block_cells + column;
+  return block < 0 ? -1 : block * block_nodes + index_in_block(wrapped ? 0 : i, j);
 }
 
 Neighbours Grid::around(BlockIndex block) const

@@ -1,4 +1,10 @@
 #pragma once
+// The background grid. It is cut into square blocks of 8 x 8 nodes, of which only those that particles reach
+// exist: memory and time follow the ground, not its bounding box. Particles of a block work on a tile, their
+// own dense copy of the block with the margin that their stencils touch, which is then added to the blocks
+// around. Two blocks of one colour (of four, like the squares of a 2 x 2 pattern) are a block apart, so that
+// their tiles share no node: the blocks of a colour may be added at the same time, and every node still gets
+// its contributions in one order. That is why results do not depend on the number of threads.
 
 #include "solver/mpm/parallel.hpp"
 #include "solver/mpm/simd.hpp"
@@ -6,6 +12,7 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <bit>
 #include <compare>
 #include <type_traits>
 #include <vector>
@@ -14,14 +21,42 @@ namespace mpm
 {
 inline constexpr int block_cells = 8;                         ///< cells (and nodes) along a block's edge
 inline constexpr int block_nodes = block_cells * block_cells; ///< nodes that a block owns
-inline constexpr int tile_margin = 2; ///< nodes of a tile left of its block: 1 of the stencil, 1 of drift
-inline constexpr int tile_nodes = block_cells + 2 * tile_margin + 1;
-inline constexpr int tile_stride = 16;
+
+/// Cells by which a particle may stand beside the block that it was sorted into.
+inline constexpr int drift_cells = 1;
+/// Nodes of a tile to the left of its block, and below it: a particle in cell i touches the nodes i - 1 to
+/// i + 2, and may have drifted by a cell. To the right it takes one more.
+inline constexpr int tile_margin = 1 + drift_cells;
+inline constexpr int tile_nodes = block_cells + 2 * tile_margin + 1; ///< along a tile's edge
+inline constexpr int tile_stride = 16; ///< from a row of a tile to the next: whole vectors
 inline constexpr int tile_size = tile_nodes * tile_stride;
 
 inline constexpr int block_cost = 4; ///< time that a loop over a block's nodes takes, in particles
 
-/// Place of a block, column by column: its cells are [8 x, 8 x + 8) by [8 y, 8 y + 8).
+/// Block that owns cell or node i of a direction: i / 8, rounded down.
+inline int block_of(int i)
+{
+  static_assert(std::has_single_bit(unsigned(block_cells)));
+  return i >> std::countr_zero(unsigned(block_cells));
+}
+/// Which of its block's rows or columns cell or node i is.
+inline int within_block(int i)
+{
+  return i & (block_cells - 1);
+}
+/// Index of a node in its block, by column and row of the grid or of the block.
+inline int index_in_block(int i, int j)
+{
+  return within_block(j) * block_cells + within_block(i);
+}
+/// Index in a tile of the node in column i and row j of the tile's block, which may be outside the block.
+constexpr int tile_index(int i, int j)
+{
+  return (j + tile_margin) * tile_stride + i + tile_margin;
+}
+
+/// Column and row of a block among the blocks: its cells are [8 x, 8 x + 8) by [8 y, 8 y + 8). In the order
+/// of columns.
 struct BlockIndex
 {
   int x, y;
@@ -34,40 +69,44 @@ struct BlockIndex
   int colour() const { return (x & 1) + 2 * (y & 1); }
 };
 
-/// The 3 x 3 blocks around a block as places in Grid::blocks, -1 where there is none; row by row from below.
+/// Indices in Grid::blocks of the 3 x 3 blocks around a block, row by row from below; -1 where there is none.
 using Neighbours = std::array<int, 9>;
 
 /// One number at each node; a row of a block is as aligned as vectors are.
 using NodeField = std::vector<double, Eigen::aligned_allocator<double>>;
 
-/// Sparse background grid: only blocks that hold material, and those that their stencils reach, exist.
-/// Node (i, j) stands at origin + spacing * (i, j); node fields are stored block by block, row by row.
+/// Sparse background grid. Node (i, j) stands at origin + spacing * (i, j). Node fields are stored block by
+/// block in the order of `blocks`, row by row in a block; all values are per m out of plane.
 struct Grid
 {
-  double spacing = 1;
-  double origin_x = 0, origin_y = 0;
-  bool wrapped = false; ///< one cell wide, the node index wraps in x: a free-field column (METHODS section 5)
+  double spacing = 1;                ///< h, m
+  double origin_x = 0, origin_y = 0; ///< m
+  /// One cell wide: every column of nodes is the same one, so that nothing varies in x. With all of a
+  /// stencil's columns on one node, sum N = 1 and sum dN/dx = 0: the domain is a column of ground in one
+  /// dimension.
+  bool wrapped = false;
 
-  std::vector<BlockIndex> blocks; ///< sorted
+  std::vector<BlockIndex> blocks; ///< sorted: those that hold particles, and the eight around each
   std::vector<Neighbours> neighbours;
-  int built = 0; ///< how often: places in the node fields hold until the next time
+  int built = 0; ///< how often `blocks` was made; indices of nodes hold until the next time
 
-  NodeField mass;
-  NodeField momentum_x, momentum_y;
-  NodeField force_x, force_y;
-  NodeField dashpot_x,
-      dashpot_y; ///< of dashpots at the nodes, N s/m per m; empty without absorbing boundaries
-  NodeField face_dashpot_x,
-      face_dashpot_y;               ///< of dashpots on the base's face, which act on its velocity; empty
-                                    ///< without them and with the lumped mass
-  NodeField velocity_x, velocity_y; ///< updated velocity v*
-  NodeField change_x,
-      change_y;          ///< v* - P/m of the lumped mass, see correct_inertia; empty without it
-  NodeField linked_mass; ///< mass of nodes that take part in that, kg per m
+  NodeField mass;                   ///< m_i, kg
+  NodeField momentum_x, momentum_y; ///< P_i = sum w m (v + C (x_i - x)), N s
+  NodeField force_x, force_y;       ///< internal, weight and boundaries', N
+  /// Coefficients c of dashpots at the nodes, N s/m: their force is -c v; what their far ends add is in the
+  /// forces. Empty without absorbing boundaries.
+  NodeField dashpot_x, dashpot_y;
+  /// Of dashpots on the base's face, which act on the face's velocity (FaceColumns), N s/m. Empty without
+  /// them and with the lumped mass.
+  NodeField face_dashpot_x, face_dashpot_y;
+  NodeField velocity_x, velocity_y; ///< v* at the end of the step, m/s
+  NodeField change_x, change_y;     ///< v* - P/m of the lumped mass, m/s; empty but for correct_inertia
+  NodeField linked_mass;            ///< mass of nodes that take part in correct_inertia, kg
   /// Part of a node that belongs to the ground, for sums over nodes: 0 for images beyond a mirrored wall, 1/2
   /// on it, 1/4 where two walls meet; empty without walls.
   NodeField share;
-  double smallest_mass = 0; ///< nodes with less stay at rest, kg per m
+  /// Nodes with this mass or less stay at rest, kg: what reaches them from the ends of stencils is rounding.
+  double smallest_mass = 0;
 
   double inverse_spacing() const { return 1 / spacing; }
   /// Mean of a node's velocity before and after the equation of motion; zero where it stays at rest, m/s.
@@ -93,27 +132,22 @@ struct Grid
             velocity_y[node] - momentum_y[node] / mass[node]};
   }
   int nodes() const { return static_cast<int>(blocks.size()) * block_nodes; }
-  /// Place of a block in `blocks`, -1 if it does not exist.
+  /// Index of a block in `blocks`, -1 if it does not exist.
   int find(BlockIndex block) const;
-  /// Place of node (i, j) in the node fields, -1 if its block does not exist.
+  /// Index of node (i, j) in the node fields, -1 if its block does not exist.
   int node(int i, int j) const;
   Neighbours around(BlockIndex block) const;
   /// Makes the grid of exactly these blocks (sorted, unique) and sizes the node fields.
   void build(std::vector<BlockIndex> wanted, bool with_dashpots, bool with_face_dashpots);
+  /// Sets what particles and boundaries add to a block to zero.
   void clear(int block);
-  /// Calls f(place in blocks) for all blocks, on all threads.
+  /// Calls f(index in blocks) for all blocks, on all threads.
   template <class Function>
   void for_each_block(const Function& f) const
   {
     parallel::for_each(static_cast<int>(blocks.size()), block_cost, f);
   }
 };
-
-/// Block that owns cell or node i of a direction.
-inline int block_of(int i)
-{
-  return i >> 3;
-}
 
 /// Finds the nodes of one stencil after the other, quickly when they are near each other.
 class NodeFinder
@@ -129,12 +163,11 @@ public:
     around_ = grid_.around(block);
     known_ = true;
   }
-  /// Place of node (i, j) of that stencil, -1 if its block does not exist.
+  /// Index of node (i, j) of that stencil in the node fields, -1 if its block does not exist.
   int operator()(int i, int j) const
   {
     const int block = around_[3 * (block_of(j) - block_.y + 1) + block_of(i) - block_.x + 1];
-    const int column = grid_.wrapped ? 0 : i & (block_cells - 1);
-    return block < 0 ? -1 : block * block_nodes + (j & (block_cells - 1)) * block_cells + column;
+    return block < 0 ? -1 : block * block_nodes + index_in_block(grid_.wrapped ? 0 : i, j);
   }
 
 private:
@@ -144,7 +177,7 @@ private:
   bool known_ = false;
 };
 
-/// A block's own dense copy of one node field, with the margin that its particles reach.
+/// A dense copy of one node field for the particles of a block, with the margin that they reach.
 struct alignas(64) Tile
 {
   std::array<double, tile_size> value;
@@ -156,8 +189,9 @@ struct alignas(64) PairTile
   std::array<double, 2 * tile_size> value;
 };
 
-/// Runs of consecutive nodes shared by a tile and the grid: f(place in the grid, place in the tile, count),
-/// the count being a compile-time constant. In a wrapped grid every tile column is the one node column.
+/// Calls f(node, at, count) for the runs of consecutive nodes that a tile and the grid share: `node` is the
+/// first one's index in the node fields, `at` its index in the tile, the count a compile-time constant. A
+/// tile reaches into all 3 x 3 blocks `around`. In a wrapped grid every tile column is the one node column.
 template <class Function>
 void for_each_run(const Grid& grid, const Neighbours& around, const Function& f)
 {
@@ -170,11 +204,11 @@ void for_each_run(const Grid& grid, const Neighbours& around, const Function& f)
   for (int band = 0; band < 3; ++band)
   {
     // Rows that a block and the tile share, from the block's node `column` on.
-    const auto rows = [&](int block, int column, auto count, int place)
+    const auto rows = [&](int block, int column, auto count, int tile_column)
     {
       if (block < 0) return;
       const int node = block * block_nodes + column;
-      const int tile = (block_cells * (band - 1) + tile_margin) * tile_stride + place;
+      const int tile = (block_cells * (band - 1) + tile_margin) * tile_stride + tile_column;
       for (int row = first_row[band]; row < end_row[band]; ++row)
         f(node + row * block_cells, tile + row * tile_stride, count);
     };
@@ -201,7 +235,7 @@ void add_to_column(const Neighbours& around, const double* tile, NodeField& fiel
     double sum = 0;
     for (int column = 0; column < tile_nodes; ++column)
       sum += tile[components * (row * tile_stride + column)];
-    field[block * block_nodes + (y & (block_cells - 1)) * block_cells] += sum;
+    field[block * block_nodes + index_in_block(0, y)] += sum;
   }
 }
 
@@ -210,10 +244,10 @@ inline void add_tile(const Grid& grid, const Neighbours& around, const Tile& til
 {
   if (grid.wrapped) return add_to_column<1>(around, tile.value.data(), field);
   for_each_run(grid, around,
-               [&](int node, int place, auto count)
+               [&](int node, int at, auto count)
                {
                  double* __restrict to = &field[node];
-                 for (int k = 0; k < count; ++k) to[k] += tile.value[place + k];
+                 for (int k = 0; k < count; ++k) to[k] += tile.value[at + k];
                });
 }
 
@@ -228,10 +262,10 @@ inline void add_tile(const Grid& grid, const Neighbours& around, const PairTile&
     return;
   }
   for_each_run(grid, around,
-               [&](int node, int place, auto count)
+               [&](int node, int at, auto count)
                {
                  double* __restrict to_x = &x[node], * __restrict to_y = &y[node];
-                 const double* __restrict from = &tile.value[2 * place];
+                 const double* __restrict from = &tile.value[2 * at];
                  for (int k = 0; k < count; ++k)
                  {
                    to_x[k] += from[2 * k];
@@ -245,10 +279,10 @@ inline void read_tile(const Grid& grid, const Neighbours& around, const NodeFiel
 {
   tile.value.fill(0);
   for_each_run(grid, around,
-               [&](int node, int place, auto count)
+               [&](int node, int at, auto count)
                {
                  const double* __restrict from = &field[node];
-                 double* __restrict to = &tile.value[place];
+                 double* __restrict to = &tile.value[at];
                  for (int k = 0; k < count; ++k) to[k] = from[k];
                });
 }
@@ -259,10 +293,10 @@ inline void read_tile(const Grid& grid, const Neighbours& around, const NodeFiel
 {
   tile.value.fill(0);
   for_each_run(grid, around,
-               [&](int node, int place, auto count)
+               [&](int node, int at, auto count)
                {
                  const double* __restrict from_x = &x[node], * __restrict from_y = &y[node];
-                 double* __restrict to = &tile.value[2 * place];
+                 double* __restrict to = &tile.value[2 * at];
                  for (int k = 0; k < count; ++k)
                  {
                    to[2 * k] = from_x[k];

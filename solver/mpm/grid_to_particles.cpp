@@ -6,17 +6,17 @@ namespace mpm
 {
 namespace
 {
-/// dt |L| beyond which a step has lost the motion.
+/// dt |L| beyond which a step has lost the motion: the particle would be turned inside out.
 constexpr double greatest_gradient = 1;
 
-/// The cells in which the particles of some lanes stand.
-struct Cells
+/// The different cells in which the particles of some lanes stand, mostly one: nodes are read once a cell.
+struct LaneCells
 {
   int count = 0;
-  int node[lanes]; ///< first of the stencil
-  Selection who[lanes];
+  int node[lanes];      ///< index in the tile of the first node of the cell's stencil
+  Selection who[lanes]; ///< the lanes whose particles are there
 
-  explicit Cells(const int* nodes)
+  explicit LaneCells(const int* nodes)
   {
     unsigned left = (1u << lanes) - 1;
     while (left != 0)
@@ -43,18 +43,18 @@ struct Splines
   LaneSplines x, y;
 };
 
-/// What the grid tells some particles of a field, times the factors of the stencils: sums over the nodes.
-struct Reading
+/// Sums over the nodes of a field v around some particles, times the factors of the splines.
+struct NodeSums
 {
   Lanes value{};                ///< w v
   Lanes slope_x{}, slope_y{};   ///< dw/dx v, dw/dy v
   Lanes moment_x{}, moment_y{}; ///< w (x_i - x) v, w (y_i - y) v (eq. 3)
 };
 
-/// For the particles from k on.
-[[gnu::noinline]] Reading read(const Tile& field, const Cells& cells, const Splines& s, int k)
+/// Of the particles from k on.
+[[gnu::noinline]] NodeSums sum_nodes(const Tile& field, const LaneCells& cells, const Splines& s, int k)
 {
-  Reading sum;
+  NodeSums sum;
 #pragma GCC unroll 4
   for (int j = 0; j < 4; ++j)
   {
@@ -77,8 +77,9 @@ struct Reading
   return sum;
 }
 
-/// Takes the factors of the stencils out of velocities. A rounded 1/36 would change the momentum step by
-/// step; 7/256 is exact, and the rounding of the rest, a 64th of the whole, is too small to matter.
+/// Takes the factors of the splines out of velocities, v / 36. A rounded 1/36 would change the momentum step
+/// by step; 7/256 is exact, and the rounding of the rest, 1/2304 or a 64th of the whole, is too small to
+/// matter.
 inline Lanes without_weights(const Lanes& values)
 {
   constexpr double most = 7.0 / 256, rest = 1.0 / 2304;
@@ -86,12 +87,12 @@ inline Lanes without_weights(const Lanes& values)
   return values * most + values * rest;
 }
 
-/// Greatest components of what was read.
+/// Greatest components of velocities and gradients, still times the factors of the splines.
 struct Extremes
 {
   Lanes velocity{}, gradient{};
 
-  void take(const Reading& r)
+  void take(const NodeSums& r)
   {
     velocity = greatest_of(velocity, r.value);
     gradient = greatest_of(greatest_of(gradient, r.slope_x), r.slope_y);
@@ -104,32 +105,32 @@ void read_change(const Grid& grid, const Neighbours& around, const NodeField& mo
 {
   change.value.fill(0);
   for_each_run(grid, around,
-               [&](int node, int place, auto count)
+               [&](int node, int at, auto count)
                {
                  for (int k = 0; k < count; ++k)
                  {
                    const double m = grid.mass[node + k];
                    if (m <= grid.smallest_mass) continue;
-                   change.value[place + k] = velocity.value[place + k] - momentum[node + k] / m;
+                   change.value[at + k] = velocity.value[at + k] - momentum[node + k] / m;
                  }
                });
 }
 
-/// How particles take over what the grid tells them.
+/// How particles take over the nodes' velocities.
 struct Transfer
 {
   double dt, spacing;
   double blend; ///< share of FLIP
 };
 
-/// One component of what particles carry, and of the velocity gradient of a chunk of them.
-struct Carried
+/// One component of the motion of all particles, and of the velocity gradient of a chunk of them.
+struct MotionFields
 {
   std::vector<double>&position, &velocity, &affine_x, &affine_y;
   std::array<double, chunk_size>&gradient_x, &gradient_y;
 };
 
-/// One component of what the grid tells the particles of a block.
+/// One component of the nodes' velocities around a block, and how it moves the block's particles.
 class Component
 {
 public:
@@ -141,15 +142,17 @@ public:
     if (transfer.blend > 0) read_change(grid, around, momentum, velocity_, change_);
   }
 
-  /// v = sum w v*, C = D^-1 sum w v* (x_i - x)^T (eq. 3), L = sum v* grad w of n particles, k the first of
-  /// them in the chunk and q in all; moves them with v. With a share of FLIP, `blend`, particles take v +
-  /// blend (v_p + sum w (v* - P/m) - v) (METHODS section 1).
-  [[gnu::always_inline]] inline void apply(const Cells& cells, const Splines& s, int k, int q, int n,
-                                           const Carried& particles, Extremes& greatest) const
+  /// Of n particles, k being the index of the first in the chunk and q in all:
+  ///
+  ///   v = sum w v*,   C = 3 / h^2 sum w v* (x_i - x)^T (eq. 3),   L = sum v* grad w^T,   x += dt v,
+  ///
+  /// and with a share of FLIP, a = `blend`, v_p = v + a (v_p + sum w (v* - P/m) - v) for what they keep.
+  [[gnu::always_inline]] inline void apply(const LaneCells& cells, const Splines& s, int k, int q, int n,
+                                           const MotionFields& particles, Extremes& greatest) const
   {
     const auto [dt, spacing, blend] = transfer_;
     const double affine = 3 * inverse_weights / spacing, slope = inverse_slopes / spacing; // D = h^2 / 3
-    const Reading r = read(velocity_, cells, s, k);
+    const NodeSums r = sum_nodes(velocity_, cells, s, k);
     greatest.take(r);
     const Lanes v = without_weights(r.value);
     double* const x = &particles.position[q];
@@ -157,7 +160,7 @@ public:
     double* const velocity = &particles.velocity[q];
     if (blend > 0)
     {
-      const Lanes change = without_weights(read(change_, cells, s, k).value);
+      const Lanes change = without_weights(sum_nodes(change_, cells, s, k).value);
       store_first(velocity, v + blend * (load_first(velocity, n) + change - v), n);
     }
     else
@@ -173,39 +176,40 @@ private:
   Tile velocity_, change_;
 };
 
-/// Greatest displacement component of a block's particles in cells; infinite when one is deformed wholly.
-double update_home(Domain& domain, const OccupiedBlock& occupied, double dt)
+/// Moves the particles of a block and updates their stress. Returns their greatest displacement component in
+/// cells; infinite when one is deformed wholly.
+double update_block(Domain& domain, const OccupiedBlock& occupied, double dt)
 {
   const Grid& grid = domain.grid;
   const Transfer transfer{dt, grid.spacing, domain.settings.flip_blend};
   const Component x(grid, occupied.around, grid.velocity_x, grid.momentum_x, transfer);
   const Component y(grid, occupied.around, grid.velocity_y, grid.momentum_y, transfer);
   const TileStencils tile(grid, occupied.block);
-  ChunkPlaces places;
+  ChunkCells at;
   Splines splines;
   VelocityGradients L;
   Particles& p = domain.particles;
-  const Carried of_x{p.x, p.velocity_x, p.affine_xx, p.affine_xy, L.xx, L.xy};
-  const Carried of_y{p.y, p.velocity_y, p.affine_yx, p.affine_yy, L.yx, L.yy};
+  const MotionFields of_x{p.x, p.velocity_x, p.affine_xx, p.affine_xy, L.xx, L.xy};
+  const MotionFields of_y{p.y, p.velocity_y, p.affine_yx, p.affine_yy, L.yx, L.yy};
   Extremes greatest;
   for_each_chunk(occupied,
                  [&](int material, int begin, int count)
                  {
-                   places.find(tile, &p.x[begin], &p.y[begin], count);
-                   splines.x.find(places.x_fraction, count);
-                   splines.y.find(places.y_fraction, count);
+                   at.fill(tile, &p.x[begin], &p.y[begin], count);
+                   splines.x.fill(at.x_fraction, count);
+                   splines.y.fill(at.y_fraction, count);
                    const Material& m = domain.materials[material];
                    const auto state = [&](std::size_t k) {
                      return k < m.state.size() ? &m.state[k][begin - domain.material_begin[material]]
                                                : &p.x[begin];
                    };
-                   const Ahead ahead(p, begin, &p.stress_zz[begin], state(0), state(1));
+                   const Prefetch next(p, begin, &p.stress_zz[begin], state(0), state(1));
                    for (int k = 0; k < count; k += lanes)
                    {
-                     const Cells cells(&places.node[k]);
+                     const LaneCells cells(&at.node[k]);
                      const int q = begin + k, n = std::min(lanes, count - k);
                      for (int quarter = (k & 7) / 2; quarter < ((k & 7) + lanes) / 2; ++quarter)
-                       ahead.fetch(k & ~7, quarter);
+                       next.fetch(k & ~7, quarter);
                      x.apply(cells, splines, k, q, n, of_x, greatest);
                      y.apply(cells, splines, k, q, n, of_y, greatest);
                    }
@@ -219,10 +223,10 @@ double update_home(Domain& domain, const OccupiedBlock& occupied, double dt)
 
 /// Share of the lightest ground's density below which a gauge is not in the ground any more. A surface has a
 /// half, the edge of a vertical cut a quarter, a particle that flies alone, one of four of its cell, a
-/// twentieth; there the nodes' velocities are one particle's, far beyond the place where it is.
+/// twentieth; the nodes' velocities are then that one particle's, far beyond where it is.
 constexpr double least_density = 0.1;
 
-/// Moves a gauge with the velocity of the ground at its place; nodes without mass are left out of the mean.
+/// Moves a gauge with the velocity of the ground there, sum w v* / sum w over the nodes that have mass.
 /// Where the ground is torn to pieces it flies, where the ground sleeps it stands still.
 void move(Gauge& gauge, const Domain& domain, double density, NodeFinder& find, double dt)
 {
@@ -256,7 +260,7 @@ void move(Gauge& gauge, const Domain& domain, double density, NodeFinder& find, 
   gauge.y += dt * gauge.velocity_y;
 }
 
-void move_tracers(Domain& domain, double dt)
+void move_gauges(Domain& domain, double dt)
 {
   double lightest = std::numeric_limits<double>::infinity();
   for (const Material& material : domain.materials) lightest = std::min(lightest, material.elastic().density);
@@ -270,9 +274,9 @@ void grid_to_particles(Domain& domain, double dt)
 {
   std::vector<double> moves(domain.blocks.occupied.size());
   parallel::for_each(domain.blocks.awake,
-                     [&](int k) { moves[k] = update_home(domain, domain.blocks.occupied[k], dt); });
+                     [&](int k) { moves[k] = update_block(domain, domain.blocks.occupied[k], dt); });
   domain.measures.greatest_move = moves.empty() ? 0 : *std::max_element(moves.begin(), moves.end());
   watch_rest(domain, moves, dt);
-  move_tracers(domain, dt);
+  move_gauges(domain, dt);
 }
 } // namespace mpm

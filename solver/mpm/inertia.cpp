@@ -6,21 +6,20 @@ namespace mpm
 {
 namespace
 {
-constexpr double coefficient =
-    1.0 / 3; // half the second moment of the product of two cubic splines, over h^2
+/// Half the second moment of the product of two cubic splines, over h^2.
+constexpr double coefficient = 1.0 / 3;
 constexpr double none_below = 0.4, all_above = 0.75; // least over greatest mass of three nodes in a line
-constexpr double strong = 4;                         // dt c / m of a dashpot that rules its node
+constexpr double strong = 4;                         // dt c / m of a dashpot that a node follows
 
-constexpr int first = tile_margin; // of the block's own nodes in its tile
-
-/// Of a side or of the base: each by itself, so that corners are as columns are.
+/// Of a side or of the base, N s/m per m: the greater, not the sum, so that a corner is as a column's base
+/// is.
 double greatest_dashpot(const Grid& g, int node)
 {
   return std::max(std::max(g.dashpot_x[node], g.dashpot_y[node]),
                   std::max(g.face_dashpot_x[node], g.face_dashpot_y[node]));
 }
 
-/// Change of the nodes' velocities by the equation of motion, and the mass that takes part.
+/// Finds v* - P/m of a block's nodes, and the mass with which they take part.
 void prepare(Grid& g, int block, double dt)
 {
   const bool dashpots = !g.dashpot_x.empty();
@@ -45,8 +44,10 @@ inline double greater(double a, double b)
   return a > b ? a : b;
 }
 
-/// A third of m_ij between each node of a tile and the next one `step` places on; where `face` is not zero,
-/// unequal masses do not fade it.
+/// links[i] = m_ij / 3 of each node i of a tile and the node j = i + step, the next one of the row or column.
+/// A link is as even as the less even of its nodes: `evenness` of a node goes by least over greatest mass of
+/// itself and the two beside it. Where `face` is not zero, at the base's face, unequal masses do not fade it:
+/// the face's dashpots hold the light nodes.
 template <int step>
 void link(const Tile& mass, const Tile& face, Tile& links)
 {
@@ -67,14 +68,14 @@ void link(const Tile& mass, const Tile& face, Tile& links)
     out[t] = coefficient * lesser(m[t], m[t + step]) * lesser(e[t], e[t + step]);
 }
 
-/// What the nodes of a block get from their neighbours, over their mass, added to one component of the
-/// velocity.
+/// v_i += 1/m_i sum_j m_ij / 3 (a_i - a_j) dt, `change` being a dt: one component of a block's velocities.
+/// `across` and `up` are the links to the right and above.
 void add_exchange(const Tile& mass, const Tile& across, const Tile& up, const Tile& change, double* velocity)
 {
   constexpr int left = 1, below = tile_stride;
   for (int row = 0; row < block_cells; ++row)
   {
-    const int start = (row + first) * tile_stride + first;
+    const int start = tile_index(0, row);
     const double *m = &mass.value[start], *x = &across.value[start], *y = &up.value[start];
     const double* a = &change.value[start];
     double* __restrict v = velocity + row * block_cells;

@@ -10,15 +10,17 @@ struct Grid;
 ///
 ///   m_i a_i' = m_i a_i + 1/3 sum_j m_ij (a_i - a_j),   m_ij = min(m_i, m_j) x (0 .. 1)
 ///
-/// over the direct neighbours j is second-order consistent with the splines' own mass matrix: one term of the
-/// series of its inverse (of which Hammerquist and Nairn, CMAME 318 (2017), keep more, with sums over the
-/// particles). Pairs exchange momentum, so that it is kept; a common acceleration is not touched. The last
-/// factor of m_ij fades from 1 to 0 where the masses along a line of three nodes differ by a factor of 1.33
-/// to 2.5, so that nothing changes at free surfaces and loose particles, which rule the stable step; in bulk
-/// the limit falls from 1.77 to 1.19 cells a step of the fastest wave, above those 0.78. Nodes that a dashpot
-/// rules (dt c / m > 4) take no part.
+/// over the four direct neighbours j is second-order consistent with the splines' own mass matrix: one term
+/// of the series of its inverse (of which Hammerquist & Nairn, Comput. Methods Appl. Mech. Eng. 318 (2017)
+/// 724, keep more, with sums over the particles). Pairs exchange momentum, so that it is kept; a common
+/// acceleration is not touched.
+///
+/// The last factor of m_ij fades from 1 to 0 where the masses along a line of three nodes differ by a factor
+/// of 1.33 to 2.5, so that nothing changes at free surfaces and loose particles, which limit the step; in
+/// bulk the stable Courant number falls from 1.77 to 1.19, still above stable_courant_number. Nodes that
+/// follow a dashpot rather than their own mass (dt c / m > 4) take no part.
 ///
 /// To be called after the equation of motion. Leaves v* - P/m of the lumped one in Grid::change_x and
-/// change_y.
+/// change_y; boundaries mirror the corrected velocities afterwards.
 void correct_inertia(Grid& grid, double dt);
 } // namespace mpm

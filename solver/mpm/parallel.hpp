@@ -1,6 +1,6 @@
 #pragma once
-// The only door to OpenMP. Nothing here lets a result depend on the number of threads: loops write to
-// places of their own, and maxima and sums are gathered by the caller in a fixed order.
+// The only door to OpenMP. Nothing here lets a result depend on the number of threads: each item of a loop
+// writes what no other one does, and the caller gathers sums and maxima in a fixed order.
 
 #include <algorithm>
 #include <array>

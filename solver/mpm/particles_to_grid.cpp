@@ -4,14 +4,16 @@ namespace mpm
 {
 namespace
 {
+/// What the particles of a block bring to the nodes.
 struct Tiles
 {
   Tile mass;
   PairTile momentum, force;
 };
 
-/// What the particles of a chunk bring to the nodes, as vectors (x, y) one after the other: momentum m v and
-/// m C column by column (eq. 2), internal force -V sigma column by column; less the factors of the stencils.
+/// What the particles of a chunk have to give, as vectors (x, y) one after the other: mass m, momentum m v
+/// and m C column by column (eq. 2), internal force -V sigma column by column; all over the factors of the
+/// splines.
 struct Sources
 {
   alignas(64) double mass[chunk_size];
@@ -39,7 +41,12 @@ struct Sources
   }
 };
 
-/// Sums at the 16 nodes of one cell's stencil, kept while one particle after the other stands in that cell.
+/// Sums at the 16 nodes of one cell's stencil over the particles in that cell, which follow each other:
+///
+///   m_i = sum N_i m,   P_i = sum N_i m (v + C (x_i - x)),   f_i = -sum V sigma grad N_i.
+///
+/// N_i is a product of two splines, so that all of x (weight, slope, moment) comes as a row of four nodes
+/// once a particle, and all of y as a number for each of the four rows.
 class CellSums
 {
 public:
@@ -65,7 +72,7 @@ public:
     }
   }
 
-  void flush(Tiles& tiles) const
+  void add_to(Tiles& tiles) const
   {
 #pragma GCC unroll 4
     for (int j = 0; j < 4; ++j)
@@ -85,25 +92,26 @@ private:
   Pairs momentum_[4]{}, force_[4]{};
 };
 
+/// Adds a chunk to the tiles, cell by cell.
 void scatter(const ChunkStencils& stencils, const Sources& sources, int count, Tiles& tiles,
-             const Ahead& ahead)
+             const Prefetch& next)
 {
   for (int k = 0; k < count;)
   {
-    const int node = stencils.place.node[k];
+    const int node = stencils.cells.node[k];
     CellSums sums(node);
-    for (; k < count && stencils.place.node[k] == node; ++k)
+    for (; k < count && stencils.cells.node[k] == node; ++k)
     {
-      if ((k & 1) == 0) ahead.fetch(k & ~7, (k & 6) / 2);
+      if ((k & 1) == 0) next.fetch(k & ~7, (k & 6) / 2);
       sums.add(stencils, sources, k);
     }
-    sums.flush(tiles);
+    sums.add_to(tiles);
   }
 }
 
 /// Adds one material's particles of a block to its tiles.
-void scatter_range(const Domain& domain, const TileStencils& tile, const Range& range, double mass_scale,
-                   Tiles& tiles)
+void scatter_range(const Domain& domain, const TileStencils& tile, const ParticleRange& range,
+                   double mass_scale, Tiles& tiles)
 {
   const Particles& p = domain.particles;
   ChunkStencils stencils;
@@ -112,19 +120,21 @@ void scatter_range(const Domain& domain, const TileStencils& tile, const Range& 
                  [&](int begin, int count)
                  {
                    const double* none = &p.x[begin];
-                   const Ahead ahead(p, begin, none, none, none);
-                   stencils.find(tile, &p.x[begin], &p.y[begin], count);
+                   const Prefetch next(p, begin, none, none, none);
+                   stencils.fill(tile, &p.x[begin], &p.y[begin], count);
                    sources.gather(p, begin, count, mass_scale, domain.grid.spacing);
-                   scatter(stencils, sources, count, tiles, ahead);
+                   scatter(stencils, sources, count, tiles, next);
                  });
 }
 
-/// Adds the particles of a block to the grid, materials of the same mass scale together.
-void scatter_home(Domain& domain, const OccupiedBlock& occupied)
+/// Adds the particles of a block to the grid, materials of the same mass scale together. The weight of a node
+/// is its mass times gravity; where a static stage scales masses, weights stay as they are.
+void scatter_block(Domain& domain, const OccupiedBlock& occupied)
 {
   Grid& grid = domain.grid;
   const TileStencils tile(grid, occupied.block);
-  const auto scale_of = [&](const Range& range) { return domain.materials[range.material].mass_scale; };
+  const auto scale_of = [&](const ParticleRange& range)
+  { return domain.materials[range.material].mass_scale; };
   for (auto range = occupied.ranges.begin(); range != occupied.ranges.end();)
   {
     Tiles tiles;
@@ -149,9 +159,9 @@ void particles_to_grid(Domain& domain, double dt)
 {
   domain.grid.for_each_block([&](int k) { domain.grid.clear(k); });
   parallel::for_each_in_turn(domain.blocks.colours,
-                             [&](int k) { scatter_home(domain, domain.blocks.occupied[k]); });
-  domain.measures.times.lap(Phase::scatter);
+                             [&](int k) { scatter_block(domain, domain.blocks.occupied[k]); });
+  domain.measures.times.end(Phase::scatter);
   for (const auto& boundary : domain.boundaries) boundary->add_forces(domain, dt);
-  domain.measures.times.lap(Phase::boundaries);
+  domain.measures.times.end(Phase::boundaries);
 }
 } // namespace mpm

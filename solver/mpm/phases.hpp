@@ -24,8 +24,8 @@ class PhaseTimes
 {
 public:
   void start() { last_ = Watch::now(); }
-  /// The time since the last lap, or the start, was spent in `phase`.
-  void lap(Phase phase)
+  /// The time since the last phase ended, or the start, was spent in `phase`.
+  void end(Phase phase)
   {
     const auto now = Watch::now();
     seconds_[static_cast<int>(phase)] += std::chrono::duration<double>(now - last_).count();

@@ -20,12 +20,12 @@ void for_each_around(Domain& domain, const OccupiedBlock& occupied, const Functi
 void stand_still(Domain& domain, const OccupiedBlock& occupied)
 {
   Particles& p = domain.particles;
-  for (const Range& range : occupied.ranges)
+  for (const ParticleRange& range : occupied.ranges)
     for (auto* field : {&p.velocity_x, &p.velocity_y, &p.affine_xx, &p.affine_xy, &p.affine_yx, &p.affine_yy})
       std::fill(field->begin() + range.begin, field->begin() + range.end, 0.0);
 }
 
-/// Whether a occupied block woke.
+/// Wakes the blocks around one; whether any slept.
 bool wake_beside(Domain& domain, const OccupiedBlock& occupied)
 {
   bool woke = false;
@@ -40,8 +40,8 @@ bool wake_beside(Domain& domain, const OccupiedBlock& occupied)
   return woke;
 }
 
-/// Whether a occupied block fell asleep. All are judged by the second that has passed, then the next one
-/// begins.
+/// Lets fall asleep what has been slow, with all around it, in the window that has passed; then the next one
+/// begins. Whether any did.
 bool fall_asleep(Domain& domain)
 {
   std::vector<OccupiedBlock*> tired;
@@ -151,7 +151,7 @@ void visit_rest(StateVisitor& visitor, Domain& domain)
   visitor.integers("skipped", skipped);
   if (settings.size() != 2 || skipped.size() != 1 || skipped[0] < 0 ||
       greatest.size() != domain.blocks.occupied.size() || asleep.size() != domain.blocks.occupied.size())
-    throw std::runtime_error("rest is that of other occupied_blocks");
+    throw std::runtime_error("rest is that of other blocks");
   for (const double value : {settings[0], settings[1]})
     if (!(std::isfinite(value) && value >= 0)) throw std::runtime_error("rest/settings cannot be");
   for (const double value : greatest)

@@ -1,6 +1,8 @@
 #pragma once
-// The one place for vectors: four neighbouring grid nodes of a row, as scalars or as (x, y) pairs, and lanes
-// of particles.
+// All use of vector instructions: four neighbouring grid nodes of a row, as scalars (Row) or as (x, y) pairs
+// (Pairs), and lanes of particles (Lanes). The types are those of the compiler's vector extension, so that +
+// and * are the operators; what has none is a function here, once for AVX-512 and once for all else. The
+// width decides how sums round: results agree to the last bit between builds for the same instructions only.
 
 #include <algorithm>
 #include <cmath>
@@ -29,7 +31,7 @@ void store(double* to, const Vector& vector)
   std::memcpy(to, &vector, sizeof vector);
 }
 
-/// The instructions that this build uses; results are bit-identical for any number of threads on one path.
+/// The instructions that this build uses; results are bit-identical for any number of threads on one of them.
 inline constexpr std::string_view vector_path =
 #if defined(__AVX512F__)
     "avx512";
@@ -43,7 +45,7 @@ inline constexpr std::string_view vector_path =
     "scalar";
 #endif
 
-/// Whether a register holds the rows around two points.
+/// Whether one register holds the rows of nodes around two points.
 inline constexpr bool two_rows_a_register =
 #ifdef __AVX512F__
     true;

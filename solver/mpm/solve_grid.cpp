@@ -9,13 +9,15 @@ namespace
 {
 struct Parameters
 {
-  double dt, smallest_mass, damping;
+  double dt;            ///< s
+  double smallest_mass; ///< of nodes that move, kg per m
+  double damping;       ///< beta of eq. (1)
 };
 
 /// Neighbouring nodes of a row, one a lane; those without mass count as 1 kg and are left out.
 struct Nodes
 {
-  int first; ///< place in the node fields
+  int first; ///< index of the first in the node fields
   Selection active;
   Lanes mass, inverse_mass;
 
@@ -30,7 +32,8 @@ struct Nodes
   Lanes of(const NodeField& field) const { return load_as<Lanes>(&field[first]); }
 };
 
-/// What damping takes from a force: beta |f| sign(v) (eq. 1).
+/// What local damping takes from a force, component by component: beta |f| sign(v), sign(0) = 0 (eq. 1). It
+/// drains every mode at the same ratio, about beta / pi, and vanishes in equilibrium.
 inline Lanes taken_by_damping(const Parameters& a, const Lanes& force, const Lanes& velocity)
 {
   const Lanes most = a.damping * chosen(above(force, Lanes{}), force, -force);
@@ -47,7 +50,12 @@ struct Motion
   {
     before += nodes.inverse_mass * (momentum - nodes.mass * before); // as exact as a division
   }
-  /// Newton's law with local damping and the centred dashpot (METHODS section 4): never unstable.
+  /// Newton's law with a dashpot c that acts on the mean of the velocities before and after,
+  ///
+  ///   m (v* - v) / dt = f - beta |f| sign(v) - c (v + v*) / 2
+  ///   v* = v + dt (f - beta |f| sign(v) - c v) / (m + dt c / 2),
+  ///
+  /// which takes energy however large c is; an explicit dashpot would shorten the stable step.
   Lanes solve(const Parameters& a, const Nodes& nodes, const NodeField& dashpots)
   {
     Lanes pushed = force - taken_by_damping(a, force, before), inverse = nodes.inverse_mass;
@@ -62,12 +70,13 @@ struct Motion
   }
 };
 
-/// Sums over nodes, lane by lane, so that they have one order.
+/// What the forces did (StepWork), summed lane by lane, so that the sums have one order.
 struct WorkSums
 {
   Lanes work{}, damping{}, momentum[2]{};
 
-  /// One component, 0 or 1, of nodes of which `part` is counted; `impulse` is what the forces gave.
+  /// Adds one component, 0 or 1, of nodes of which `part` is counted. Forces that gave the impulse j, N s per
+  /// m, did the work j (v + v*) / 2, exactly the change of the kinetic energy.
   void add(int component, const Parameters& a, const Lanes& part, const Nodes& nodes, const Motion& m,
            const Lanes& impulse)
   {
@@ -96,7 +105,7 @@ Lanes counted(const Grid& g, const Nodes& nodes)
   return chosen(nodes.active, g.share.empty() ? Lanes{} + 1 : nodes.of(g.share), Lanes{});
 }
 
-/// Finds the nodes' velocities and, where nothing corrects them after, what the forces did (StepWork).
+/// Finds a block's velocities v* and, where nothing corrects them after, what the forces did.
 StepWork solve_block(Grid& g, int block, const Parameters& a, bool final)
 {
   WorkSums sum;
@@ -122,8 +131,8 @@ StepWork solve_block(Grid& g, int block, const Parameters& a, bool final)
   return sum.total();
 }
 
-/// What the forces did to nodes whose velocities were corrected (StepWork). What neighbours exchange is no
-/// work of a force: the transfer between particles and grid holds it.
+/// What the forces did to nodes whose velocities were corrected. What neighbours exchange is no work of a
+/// force: it counts as the transfers'.
 StepWork corrected_work(const Grid& g, int block, const Parameters& a)
 {
   WorkSums sum;
@@ -141,7 +150,7 @@ StepWork corrected_work(const Grid& g, int block, const Parameters& a)
   return sum.total();
 }
 
-/// In the order of the blocks, whatever thread did which.
+/// Sum in the order of the blocks, whatever thread did which.
 StepWork sum_of(const std::vector<StepWork>& parts, double dt)
 {
   StepWork sum;
@@ -189,7 +198,7 @@ void solve_grid(Domain& domain, double dt)
   double density = 0;
   for (const Material& material : domain.materials) density = std::max(density, material.elastic().density);
   const double cell_mass = density * grid.spacing * grid.spacing;
-  grid.smallest_mass = 1e-14 * cell_mass;
+  grid.smallest_mass = 1e-14 * cell_mass; // of a full cell of the densest ground
   const Parameters a{dt, grid.smallest_mass, domain.settings.local_damping};
   std::vector<StepWork> works(blocks);
   grid.for_each_block([&](int k)

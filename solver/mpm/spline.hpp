@@ -1,4 +1,11 @@
 #pragma once
+// Cubic B-splines, the shape functions. With xi = (x - x_i) / h,
+//
+//   N = |xi|^3 / 2 - xi^2 + 2/3   for |xi| < 1,     N = (2 - |xi|)^3 / 6   for 1 <= |xi| < 2,
+//
+// so that a point in cell i touches the four nodes i - 1 to i + 2 of each direction. For any x, sum N = 1,
+// sum N (x_i - x) = 0 and sum N (x_i - x)^2 = h^2 / 3: the D of APIC is h^2 / 3 times the unit tensor, the
+// 3 / h^2 of the paper's eq. (3).
 
 #include "solver/mpm/simd.hpp"
 
@@ -17,19 +24,23 @@ struct Spline
 };
 inline constexpr double spline_weight = 6, spline_slope = 2;
 
-/// The splines at the fraction f of a cell (METHODS section 1), polynomials of g = f or 1 - f. `of` picks one
-/// coefficient or the row of all four. The outer weights are cubes, so that small ones keep their relative
-/// accuracy.
+/// The splines of the nodes around a point at the fraction f of its cell. Nodes -1 to 2 stand at xi = f + 1,
+/// f, f - 1 and f - 2; with g = f for the second and fourth and g = 1 - f for the first and third
+///
+///   6 N = g^3, 3 g^3 - 6 g^2 + 4 (outer and inner nodes),     2 h dN/dx = +-g^2, +-(3 g^2 - 4 g).
+///
+/// `of` picks one node's coefficient or the row of all four. The outer weights are cubes, so that small ones
+/// keep their relative accuracy.
 template <class Value, class Pick>
 [[gnu::always_inline]] inline Spline<Value> cubic_spline(const Value& f, const Pick& of)
 {
   using Four = const double[4];
-  static constexpr Four side{-1, 1, -1, 1}, start{1, 0, 1, 0}, place{-1, 0, 1, 2};
+  static constexpr Four side{-1, 1, -1, 1}, start{1, 0, 1, 0}, position{-1, 0, 1, 2};
   static constexpr Four cubic{1, 3, 3, 1}, square{0, -6, -6, 0}, constant{0, 4, 4, 0};
   static constexpr Four slope_square{-1, 3, -3, 1}, slope_linear{0, -4, 4, 0};
   const Value g = f * of(side) + of(start);
   const Value weight = g * g * (g * of(cubic) + of(square)) + of(constant);
-  return {weight, g * (g * of(slope_square) + of(slope_linear)), weight * (of(place) - f)};
+  return {weight, g * (g * of(slope_square) + of(slope_linear)), weight * (of(position) - f)};
 }
 
 /// Of all four nodes.

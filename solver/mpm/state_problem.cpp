@@ -8,7 +8,6 @@ namespace mpm
 namespace
 {
 constexpr int farthest_block = 1 << 24; // nodes are counted in int
-constexpr double greatest_drift = 1;    // cells that a tile's margin holds
 constexpr double rounding_of_mass = 1e-6;
 
 std::string particle(std::int64_t k)
@@ -23,8 +22,8 @@ bool finite(const std::vector<double>& values)
   return sum == 0;
 }
 
-/// `total`: as many as the case makes; those that have left have no place.
-std::string place_particles(Domain& domain, std::size_t total)
+/// Finds Particles::index_of; there are as many ids as the case makes particles, `total`.
+std::string index_particles(Domain& domain, std::size_t total)
 {
   const Particles& p = domain.particles;
   domain.particles.index_of.assign(total, -1);
@@ -38,8 +37,8 @@ std::string place_particles(Domain& domain, std::size_t total)
   return {};
 }
 
-/// A gauge has place and velocity, or has left with its ground and has neither.
-std::string tracers_problem(const Domain& domain)
+/// A gauge has position and velocity, or has left with its ground and has neither.
+std::string gauges_problem(const Domain& domain)
 {
   for (const Gauge& t : domain.gauges)
   {
@@ -48,7 +47,7 @@ std::string tracers_problem(const Domain& domain)
     const bool gone =
         std::isnan(t.x) && std::isnan(t.y) && std::isnan(t.velocity_x) && std::isnan(t.velocity_y);
     if (!(here || gone) || !std::isfinite(t.reference_x) || !std::isfinite(t.reference_y))
-      return "a gauge has no place";
+      return "a gauge has no position";
   }
   return {};
 }
@@ -106,7 +105,7 @@ std::string fields_problem(const Domain& domain, const std::vector<double>& mass
 }
 
 /// The occupied blocks hold each particle once, in ranges of its material, and each near its block.
-std::string homes_problem(const Domain& domain)
+std::string blocks_problem(const Domain& domain)
 {
   const Particles& p = domain.particles;
   std::vector<bool> held(p.size(), false);
@@ -115,18 +114,18 @@ std::string homes_problem(const Domain& domain)
     const OccupiedBlock& occupied = domain.blocks.occupied[h];
     if (std::abs(occupied.block.x) > farthest_block || std::abs(occupied.block.y) > farthest_block ||
         (domain.grid.wrapped && occupied.block.x != 0))
-      return "occupied_blocks name a block far off";
+      return "an occupied block is far off";
     if (h > 0 && !(domain.blocks.occupied[h - 1].block < occupied.block))
-      return "occupied_blocks are not in the order of their blocks";
-    for (const Range& range : occupied.ranges)
+      return "the occupied blocks are not in order";
+    for (const ParticleRange& range : occupied.ranges)
     {
       if (range.material < 0 || range.material >= static_cast<int>(domain.materials.size()) ||
           range.begin < domain.material_begin[range.material] ||
           range.end > domain.material_begin[range.material + 1] || range.begin >= range.end)
-        return "occupied_blocks name particles that their material has not";
+        return "an occupied block holds particles that its material does not have";
       for (int k = range.begin; k < range.end; ++k)
       {
-        if (held[k]) return "occupied_blocks hold " + particle(p.id[k]) + "twice";
+        if (held[k]) return particle(p.id[k]) + "is in two ranges of the occupied blocks";
         held[k] = true;
         if (!within_tile(domain.grid, occupied.block, p.x[k], p.y[k]))
           return particle(p.id[k]) + "does not stand in its block";
@@ -134,8 +133,8 @@ std::string homes_problem(const Domain& domain)
     }
   }
   for (int k = 0; k < p.size(); ++k)
-    if (!held[k]) return "occupied_blocks do not hold " + particle(p.id[k]);
-  if (!(domain.blocks.drift >= 0 && domain.blocks.drift <= greatest_drift))
+    if (!held[k]) return particle(p.id[k]) + "is in no occupied block";
+  if (!(domain.blocks.drift >= 0 && domain.blocks.drift <= drift_cells))
     return "drift is " + std::to_string(domain.blocks.drift);
   return {};
 }
@@ -146,18 +145,18 @@ bool within_tile(const Grid& grid, BlockIndex block, double x, double y)
   const auto inside = [&](double at, double origin, int first)
   {
     const double cells = (at - origin) / grid.spacing - block_cells * double(first);
-    return cells >= -greatest_drift && cells <= block_cells + greatest_drift;
+    return cells >= -drift_cells && cells <= block_cells + drift_cells;
   };
   return inside(x, grid.origin_x, block.x) && inside(y, grid.origin_y, block.y);
 }
 
 std::string state_problem(Domain& domain, const std::vector<double>& masses)
 {
-  if (std::string problem = place_particles(domain, masses.size()); !problem.empty()) return problem;
+  if (std::string problem = index_particles(domain, masses.size()); !problem.empty()) return problem;
   if (std::string problem = departed_problem(domain); !problem.empty()) return problem;
-  if (std::string problem = tracers_problem(domain); !problem.empty()) return problem;
+  if (std::string problem = gauges_problem(domain); !problem.empty()) return problem;
   if (std::string problem = fields_problem(domain, masses); !problem.empty()) return problem;
-  if (std::string problem = homes_problem(domain); !problem.empty()) return problem;
+  if (std::string problem = blocks_problem(domain); !problem.empty()) return problem;
   for (const auto& boundary : domain.boundaries)
     if (std::string problem = boundary->state_problem(domain); !problem.empty())
       return "boundary/" + std::string(boundary->name()) + ": " + problem;

@@ -6,15 +6,16 @@ namespace mpm
 {
 namespace
 {
-/// Cells that a particle may drift from its block before the next sort; the tile margin holds one.
-constexpr double drift_limit = 0.75;
+/// Greatest move of a particle in a step, cells. Stable steps move it by dt v / h = C v / c_p, far less.
 constexpr double move_limit = 0.25;
+/// Particles are sorted again before one may come within a quarter of a cell of the end of its tile.
+constexpr double sort_limit = drift_cells - move_limit;
 
-/// Keeps the particles of a column within the one cell, together with their reference positions.
-void wrap(Domain& domain)
+/// Keeps the particles of a column within the one cell: one that leaves it to the left comes in from the
+/// right. Its reference position goes with it, so that displacements stay what they are.
+void wrap(Particles& p, const Grid& grid)
 {
-  Particles& p = domain.particles;
-  const double width = domain.grid.spacing, left = domain.grid.origin_x;
+  const double width = grid.spacing, left = grid.origin_x;
   for (int k = 0; k < p.size(); ++k)
   {
     const double shift = p.x[k] < left ? width : p.x[k] >= left + width ? -width : 0;
@@ -23,7 +24,7 @@ void wrap(Domain& domain)
   }
 }
 
-void find_diverged(const Domain& domain)
+void throw_if_diverged(const Domain& domain)
 {
   if (domain.measures.greatest_move <= move_limit && std::isfinite(domain.energy.step.work)) return;
   throw Diverged(
@@ -36,18 +37,18 @@ void find_diverged(const Domain& domain)
 void step(Domain& domain, double dt)
 {
   domain.measures.times.start();
-  if (domain.blocks.drift > drift_limit - move_limit) sort_particles(domain);
-  domain.measures.times.lap(Phase::sort);
-  particles_to_grid(domain, dt); // (a) mass, momentum and forces to the grid
-  solve_grid(domain, dt);        // (b) equation of motion
-  domain.measures.times.lap(Phase::grid);
-  account(domain, dt); //     its work, for the energy balance
-  domain.measures.times.lap(Phase::boundaries);
+  if (domain.blocks.drift > sort_limit - move_limit) sort_particles(domain);
+  domain.measures.times.end(Phase::sort);
+  particles_to_grid(domain, dt); // (a)
+  solve_grid(domain, dt);        // (b)
+  domain.measures.times.end(Phase::grid);
+  account(domain, dt); // what its forces did, for the energy balance
+  domain.measures.times.end(Phase::boundaries);
   if (domain.settings.average_volume) average_volume_changes(domain, dt);
-  grid_to_particles(domain, dt); // (c) velocities back to the particles, (d) deformation and stress
-  find_diverged(domain);
+  grid_to_particles(domain, dt); // (c), (d)
+  throw_if_diverged(domain);
   domain.blocks.drift += domain.measures.greatest_move;
-  if (domain.grid.wrapped) wrap(domain);
-  domain.measures.times.lap(Phase::gather);
+  if (domain.grid.wrapped) wrap(domain.particles, domain.grid);
+  domain.measures.times.end(Phase::gather);
 }
 } // namespace mpm

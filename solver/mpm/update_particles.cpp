@@ -10,9 +10,15 @@ struct Increments
   alignas(64) std::array<double, chunk_size> xx, yy, xy, cosine, sine;
 };
 
-/// Changes the volume, and finds strain and rotation from the gradient at the middle of the step,
-/// A (1 + A / 2)^-1 with A = dt L: a rigid rotation of any size strains nothing (Hughes & Winget 1980). The
-/// rotation is exactly orthogonal: cos = (1 - a^2) / (1 + a^2), sin = 2 a / (1 + a^2), a half of its spin.
+/// With A = dt L and m = det(1 + A / 2): changes the volume, V *= det(1 + A), and finds strain and rotation
+/// from the gradient at the middle of the step, A (1 + A / 2)^-1 (Hughes & Winget, Int. J. Numer. Methods
+/// Eng. 15 (1980) 1862). Its symmetric part is the strain increment,
+///
+///   e_xx = (A_xx + det A / 2) / m,   e_yy = (A_yy + det A / 2) / m,   e_xy = (A_xy + A_yx) / (2 m),
+///
+/// and half its skew part, a = (A_yx - A_xy) / (4 m), gives the rotation cos = (1 - a^2) / (1 + a^2),
+/// sin = 2 a / (1 + a^2). A rigid rotation of any size strains nothing, and the rotation is exactly
+/// orthogonal.
 void deform(Particles& p, int begin, int count, const VelocityGradients& L, double dt, Increments& e)
 {
   double* __restrict volume = &p.volume[begin];
@@ -21,7 +27,7 @@ void deform(Particles& p, int begin, int count, const VelocityGradients& L, doub
   {
     const double xx = dt * L.xx[k], xy = dt * L.xy[k], yx = dt * L.yx[k], yy = dt * L.yy[k];
     const double det = xx * yy - xy * yx;
-    // det(1 + A / 2), and a times it; one division serves strain and rotation.
+    // m, and a m; one division serves strain and rotation.
     const double middle = 1 + 0.5 * (xx + yy) + 0.25 * det, spin = 0.25 * (yx - xy);
     const double square = middle * middle + spin * spin, inverse = 1 / (middle * square);
     const double strain = inverse * square, turn = inverse * middle;
@@ -34,7 +40,8 @@ void deform(Particles& p, int begin, int count, const VelocityGradients& L, doub
   }
 }
 
-/// Rotates the stress with the spin of the step (METHODS section 1).
+/// sigma = R sigma R^T with the rotation of the step; zz stays. The Jaumann rate taken over the step
+/// explicitly would lengthen the stress by the square of the spin each time.
 void rotate_stress(Particles& p, int begin, int count, const Increments& e)
 {
   double* __restrict xx = &p.stress_xx[begin];

@@ -6,7 +6,7 @@ namespace mpm
 {
 namespace
 {
-/// Sums over the particles of one material in each cell, kept where the cell's lower left node is.
+/// Sums over the particles of one material in each cell, held at the cell's lower left node.
 struct CellSums
 {
   NodeField mass, change; ///< m and m tr L
@@ -17,13 +17,14 @@ struct Scratch
 {
   explicit Scratch(int particles)
       : rate(std::make_unique_for_overwrite<double[]>(particles)),
-        place(std::make_unique_for_overwrite<int[]>(particles))
+        cell(std::make_unique_for_overwrite<int[]>(particles))
   {
   }
   std::unique_ptr<double[]> rate; ///< tr L = sum v* . grad w, 1/s
-  std::unique_ptr<int[]> place;   ///< its cell in the tile of its block
+  std::unique_ptr<int[]> cell;    ///< tile index of its cell's lower left node
 };
 
+/// tr L = sum v* . grad w at a particle, 1/s.
 double divergence(const PairTile& velocity, const Stencil& x, const Stencil& y)
 {
   double sum = 0;
@@ -40,13 +41,14 @@ double divergence(const PairTile& velocity, const Stencil& x, const Stencil& y)
 template <class Function>
 void for_each_particle(const OccupiedBlock& occupied, int material, const Function& f)
 {
-  for (const Range& range : occupied.ranges)
+  for (const ParticleRange& range : occupied.ranges)
     if (range.material == material)
       for (int p = range.begin; p < range.end; ++p) f(p);
 }
 
-void add_home(const Domain& domain, const OccupiedBlock& occupied, int material, Scratch& scratch,
-              CellSums& sums)
+/// First pass: finds tr L of a block's particles of one material, and adds m and m tr L to their cells.
+void add_block(const Domain& domain, const OccupiedBlock& occupied, int material, Scratch& scratch,
+               CellSums& sums)
 {
   const Grid& grid = domain.grid;
   const Particles& particles = domain.particles;
@@ -58,17 +60,19 @@ void add_home(const Domain& domain, const OccupiedBlock& occupied, int material,
                     [&](int p)
                     {
                       const Stencil x = tile.x(particles.x[p]), y = tile.y(particles.y[p]);
-                      const int place = TileStencils::place(x.first + 1, y.first + 1);
+                      const int cell = tile_index(x.first + 1, y.first + 1);
                       scratch.rate[p] = divergence(velocity, x, y);
-                      scratch.place[p] = place;
-                      sum.value[2 * place] += particles.mass[p];
-                      sum.value[2 * place + 1] += particles.mass[p] * scratch.rate[p];
+                      scratch.cell[p] = cell;
+                      sum.value[2 * cell] += particles.mass[p];
+                      sum.value[2 * cell + 1] += particles.mass[p] * scratch.rate[p];
                     });
   add_tile(grid, occupied.around, sum, sums.mass, sums.change);
 }
 
-void apply_home(Domain& domain, const OccupiedBlock& occupied, int material, const Scratch& scratch,
-                const CellSums& sums, double dt)
+/// Second pass: sigma += K dt (mean - tr L) 1 and V *= 1 + dt (mean - tr L), with the mean over the cell, sum
+/// m tr L / sum m.
+void apply_block(Domain& domain, const OccupiedBlock& occupied, int material, const Scratch& scratch,
+                 const CellSums& sums, double dt)
 {
   Particles& particles = domain.particles;
   PairTile sum;
@@ -77,7 +81,7 @@ void apply_home(Domain& domain, const OccupiedBlock& occupied, int material, con
   for_each_particle(occupied, material,
                     [&](int p)
                     {
-                      const double* cell = &sum.value[2 * scratch.place[p]];
+                      const double* cell = &sum.value[2 * scratch.cell[p]];
                       const double strain = dt * (cell[1] / cell[0] - scratch.rate[p]);
                       particles.stress_xx[p] += bulk * strain;
                       particles.stress_yy[p] += bulk * strain;
@@ -96,10 +100,10 @@ void average_volume_changes(Domain& domain, double dt)
     if (domain.materials[m].state_fields().empty()) continue;
     sums.mass.assign(domain.grid.nodes(), 0.0);
     sums.change.assign(domain.grid.nodes(), 0.0);
-    parallel::for_each_in_turn(domain.blocks.colours,
-                               [&](int k) { add_home(domain, domain.blocks.occupied[k], m, scratch, sums); });
+    parallel::for_each_in_turn(domain.blocks.colours, [&](int k)
+                               { add_block(domain, domain.blocks.occupied[k], m, scratch, sums); });
     parallel::for_each(domain.blocks.awake,
-                       [&](int k) { apply_home(domain, domain.blocks.occupied[k], m, scratch, sums, dt); });
+                       [&](int k) { apply_block(domain, domain.blocks.occupied[k], m, scratch, sums, dt); });
   }
 }
 } // namespace mpm

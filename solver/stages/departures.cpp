@@ -7,7 +7,6 @@ namespace mpm
 {
 namespace
 {
-constexpr double own = 4;    // cells from an edge within which ground is its own
 constexpr double margin = 1; // cells beyond its own edge at which ground has left
 
 /// A side as it stands now: x over y, from the base upwards; the last point holds above.
@@ -99,7 +98,8 @@ struct Edges
   std::optional<Edge> passed(const Path& p) const
   {
     const double h = case_file.grid.spacing;
-    const auto grace = [h](double from_edge) { return std::fabs(from_edge) <= own * h ? margin * h : 0; };
+    const auto grace = [h](double from_edge)
+    { return std::fabs(from_edge) <= image_cells * h ? margin * h : 0; };
     for (const SideLine& side : sides)
       if (side.outward() * (p.x - side.at(p.y)) > grace(p.reference_x - position(side.edge)))
         return side.edge;
@@ -147,13 +147,13 @@ std::vector<Leaving> Departures::find() const
   for (const OccupiedBlock& occupied : main.blocks.occupied)
   {
     if (!may_have_passed(edges, main.grid, occupied.block)) continue;
-    for (const Range& range : occupied.ranges)
+    for (const ParticleRange& range : occupied.ranges)
       for (int k = range.begin; k < range.end; ++k)
         if (const auto edge = edges.passed({p.x[k], p.y[k], p.reference_x[k], p.reference_y[k]}))
           leaving.push_back({k, *edge});
   }
   std::sort(leaving.begin(), leaving.end(),
-            [](const Leaving& a, const Leaving& b) { return a.place < b.place; });
+            [](const Leaving& a, const Leaving& b) { return a.index < b.index; });
   return leaving;
 }
 

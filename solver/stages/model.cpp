@@ -1,5 +1,6 @@
 #include "solver/stages/model.hpp"
 
+#include "boundaries/frozen_images.hpp"
 #include "solver/mpm/parallel.hpp"
 #include "solver/mpm/step.hpp"
 #include "solver/stages/interfaces.hpp"
@@ -37,7 +38,7 @@ std::unique_ptr<FreeFieldColumn> make_column(const Case& case_file, const std::v
   const double side = edge == Edge::left ? case_file.domain.left : case_file.domain.right;
   std::vector<Seed> rows;
   for (const Seed& seed : seeds)
-    if (std::fabs(seed.x - side) < 0.75 * size) rows.push_back(seed);
+    if (in_outer_row(std::fabs(seed.x - side), size)) rows.push_back(seed);
   if (rows.empty()) return nullptr;
   auto domain = std::make_unique<Domain>();
   domain->name = edge == Edge::left ? "left column" : "right column";
@@ -215,7 +216,7 @@ double side_stress_mismatch(const Model& model, const Case& case_file, Edge edge
   double difference = 0, scale = 0;
   for (int k = 0; k < p.size(); ++k)
   {
-    if (std::fabs(p.reference_x[k] - side) > 0.75 * case_file.grid.particle_spacing()) continue;
+    if (!in_outer_row(std::fabs(p.reference_x[k] - side), case_file.grid.particle_spacing())) continue;
     const double wanted = q.stress_xx[column->particle_of_row(column->row_near(p.reference_y[k]))];
     difference += std::fabs(p.stress_xx[k] - wanted);
     scale += std::fabs(wanted);
@@ -238,7 +239,7 @@ void advance(Model& model, double time, double dt)
     column(model.left.get());
     column(model.right.get());
   }
-  model.main->measures.times.lap(Phase::columns);
+  model.main->measures.times.end(Phase::columns);
   model.main->time = time;
   step(*model.main, dt);
 }

@@ -42,7 +42,7 @@ void stencils(benchmark::State& state)
       for_each_chunk(occupied,
                      [&](int, int begin, int count)
                      {
-                       chunk.find(TileStencils(domain.grid, occupied.block), &p.x[begin], &p.y[begin], count);
+                       chunk.fill(TileStencils(domain.grid, occupied.block), &p.x[begin], &p.y[begin], count);
                        benchmark::DoNotOptimize(chunk);
                      });
   per_particle(state, p.size());

@@ -1,4 +1,4 @@
-#include "boundaries/images.hpp"
+#include "boundaries/frozen_images.hpp"
 #include "test/domains.hpp"
 
 #include <catch2/catch.hpp>
@@ -105,7 +105,7 @@ TEST_CASE("An image stands opposite its parent and carries the mirrored stress a
   const ImageLoad &stuck = sticking.loads.at(0), &slid = slipping.loads.at(0);
   CHECK(p.y[0] + image.offset.y() == Approx(2.75).epsilon(1e-14));
   CHECK(image.offset.x() == 0);
-  // S = -1, M = diag(1, -1): [-xx, xy; -xy, yy] (METHODS section 13)
+  // Sigma* = S Sigma M with S = -1, M = diag(1, -1): [-xx, xy; -xy, yy].
   CHECK(stuck.stress_x[0] == -3 * V);
   CHECK(stuck.stress_y[0] == 7 * V);
   CHECK(stuck.stress_x[1] == -7 * V);

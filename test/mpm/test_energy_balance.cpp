@@ -62,7 +62,7 @@ TEST_CASE("A falling block turns weight times height into kinetic energy", "[mpm
 }
 
 // A standing wave in a column fixed below and free above: a quarter wave, lambda = 4 H. The velocity filter
-// of the transfers damps it by xi = a (kh)^3 / (2 C), a = .0471 and C = dt c / h (METHODS section 7), which
+// of the transfers damps it by xi = a (kh)^3 / (2 C), a = .0471 and C = dt c / h (dispersion.hpp), which
 // is all that the energy balance may book, and it books it as transfer.
 TEST_CASE("An oscillating column changes kinetic into elastic energy and loses what the transfers take",
           "[mpm]")

@@ -116,7 +116,7 @@ TEST_CASE("One, two and three threads give the same particles to the last bit", 
   CHECK(identical(results[0], results[2]));
 }
 
-TEST_CASE("A domain rebuilt from particles, occupied_blocks and drift goes on as if it had not been left",
+TEST_CASE("A domain rebuilt from particles, occupied blocks and drift goes on as if it had not been left",
           "[mpm]")
 {
   const Threads one(1);
@@ -160,7 +160,7 @@ TEST_CASE("Sorting keeps every particle whole and its place by id", "[mpm]")
     REQUIRE(strain[k] == 1 + static_cast<double>(p.id[domain.material_begin[1] + k]));
   int next = 0;
   for (const OccupiedBlock& occupied : domain.blocks.occupied)
-    for (const Range& range : occupied.ranges)
+    for (const ParticleRange& range : occupied.ranges)
     {
       next += range.end - range.begin;
       for (int k = range.begin; k < range.end; ++k)

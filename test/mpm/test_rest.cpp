@@ -52,7 +52,7 @@ TEST_CASE("Ground at rest is skipped, wakes before a wave, and misses no more th
     run(rested, 1, time_step);
     most_asleep = std::max(most_asleep, sleeping(rested));
     for (const OccupiedBlock& occupied : rested.blocks.occupied)
-      for (const Range& range : occupied.ranges)
+      for (const ParticleRange& range : occupied.ranges)
         if (occupied.asleep)
           for (int q = range.begin; q < range.end; ++q)
             ahead += std::fabs(whole.particles.velocity_x[whole.particles.index_of[rested.particles.id[q]]]) >

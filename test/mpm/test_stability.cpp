@@ -44,7 +44,7 @@ TEST_CASE("Up to the Courant number 0.78 a free elastic block never gains energy
   }
 }
 
-// A lone particle is the first to go, beyond 0.93 (METHODS section 7): its C and stress swing ever further
+// A lone particle is the first to go, beyond 0.93: its C and stress swing ever further
 // while its velocity stays, so that it is its volume that tells. A block with full cells follows between 1.3
 // and 1.5.
 TEST_CASE("At the Courant number 1.3 a lone particle blows up and is caught within 1000 steps", "[mpm]")

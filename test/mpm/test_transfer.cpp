@@ -8,7 +8,9 @@ using namespace domains;
 
 namespace
 {
-/// Angular momentum about the origin with the spin that the affine velocity carries (METHODS section 1).
+/// Angular momentum about the origin with the spin that the affine velocity carries, sum m (x v_y - y v_x + D
+/// (C_yx
+/// - C_xy)), D = h^2 / 3.
 double angular_momentum(const Domain& domain)
 {
   const Particles& p = domain.particles;
