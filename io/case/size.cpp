@@ -2,6 +2,7 @@
 
 #include "io/case/sections.hpp"
 #include "io/common/memory.hpp"
+#include "solver/mpm/grid.hpp"
 
 #include <fmt/format.h>
 
@@ -105,8 +106,9 @@ CaseSize expected_size(const Case& case_file)
   }
   CaseSize size;
   size.particles = area / (d * d);
-  // Blocks of 8 x 8 cells: those that hold ground, cut by its outline, and one more all around.
-  size.nodes = (area + 16 * h * outline + 256 * h * h) / (h * h);
+  // The blocks that hold ground, cut by its outline, and one more all around.
+  constexpr double rim = 2 * block_cells;
+  size.nodes = (area + rim * h * outline + rim * rim * h * h) / (h * h);
   size.columns = width / d;
   const OutputSettings& output = case_file.output;
   if (case_file.seismic.duration > 0)
