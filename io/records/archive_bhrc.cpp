@@ -1,5 +1,6 @@
-// BHRC (Iran): volume 1, three components a file; 13 lines of text, 7 of integers, 7 of reals, then values of
-// 13 characters in g/10, ten a line.
+// BHRC: Iran Strong Motion Network, Road, Housing and Urban Development Research Center (formerly Building
+// and Housing Research Center), Tehran, https://ismn.bhrc.ac.ir. Volume 1, three components a file: 13
+// lines of text, 7 of integers, 7 of reals, then values of 13 characters in g/10, ten a line.
 
 #include "io/records/archives.hpp"
 

@@ -1,5 +1,6 @@
-// COSMOS strong-motion data format 1.20: blocks of text, 100 integers, 100 reals, comments and values, one
-// for each component and quantity. https://www.strongmotion.org/vdc/cosmos_format_1_20.pdf
+// COSMOS: Consortium of Organizations for Strong-Motion Observation Systems (2001), COSMOS strong motion
+// data format, version 1.20, https://www.strongmotion.org/vdc/cosmos_format_1_20.pdf. For each component
+// and quantity a block of text, 100 integers, 100 reals, comments and values.
 
 #include "io/records/archives.hpp"
 

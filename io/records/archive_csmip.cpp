@@ -1,5 +1,7 @@
-// CSMIP (California): volume 1, uncorrected, and volume 2, corrected acceleration, velocity and displacement;
-// a block of text, integers, reals and values for each channel.
+// CSMIP: California Strong Motion Instrumentation Program, California Geological Survey. Shakal, A. F. and
+// Huang, M. J. (1985), Standard tape format for CSMIP strong-motion data tapes, report OSMS 85-03. Volume
+// 1, uncorrected, and volume 2, corrected acceleration, velocity and displacement: for each channel a
+// block of text, integers, reals and values.
 
 #include "io/records/archives.hpp"
 

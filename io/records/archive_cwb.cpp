@@ -1,4 +1,7 @@
-// CWB (Taiwan): keys behind #, then time and three components a line.
+// CWB: Central Weather Bureau, Taiwan. Lee, W. H. K., Shin, T. C., Kuo, K. W., Chen, K. C. and Wu, C. F.
+// (2001), CWB free-field strong-motion data from the 21 September Chi-Chi, Taiwan, earthquake, Bulletin of
+// the Seismological Society of America 91(5), 1370-1376. Keys behind #, then time and three components a
+// line.
 
 #include "io/records/archives.hpp"
 

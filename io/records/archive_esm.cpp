@@ -1,4 +1,6 @@
-// ESM, ITACA and others (INGV): DYNA, one component a file, keys and values above one value a line.
+// DYNA, the format of ESM, ITACA and others: Luzi, L. et al. (2016), The Engineering Strong-Motion
+// Database: a platform to access pan-European accelerometric data, Seismological Research Letters 87(4),
+// 987-997, https://esm-db.eu. One component a file, keys and values above one value a line.
 
 #include "io/records/archives.hpp"
 

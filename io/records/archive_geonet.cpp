@@ -1,5 +1,5 @@
-// GeoNet (New Zealand): volumes 1 and 2, three components a file; 16 lines of text, 10 of numbers, then
-// values of 8 characters, ten a line.
+// GeoNet: GNS Science, New Zealand, https://www.geonet.org.nz. Volumes 1 (uncorrected) and 2 (corrected),
+// three components a file: 16 lines of text, 10 of numbers, then values of 8 characters, ten a line.
 
 #include "io/records/archives.hpp"
 

@@ -1,4 +1,6 @@
-// K-NET and KiK-net (NIED, Japan): one component a file, counts with a factor to gal and an offset.
+// K-NET and KiK-net: National Research Institute for Earth Science and Disaster Resilience (NIED), Japan,
+// K-NET ASCII format, https://www.kyoshin.bosai.go.jp. One component a file, counts with a factor to gal
+// and an offset.
 
 #include "io/records/archives.hpp"
 

@@ -1,5 +1,5 @@
-// SMC (USGS): one component a file; 11 lines of text, 48 integers, 50 reals, comments, values of 10
-// characters in cm/s2, cm/s or cm. https://escweb.wr.usgs.gov/nsmp-data/smcfmt.html
+// SMC: United States Geological Survey, https://escweb.wr.usgs.gov/nsmp-data/smcfmt.html. One component a
+// file: 11 lines of text, 48 integers, 50 reals, comments, values of 10 characters in cm/s2, cm/s or cm.
 
 #include "io/records/archives.hpp"
 

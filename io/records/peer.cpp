@@ -1,3 +1,8 @@
+// PEER: Pacific Earthquake Engineering Research Center, University of California, Berkeley. Ancheta, T. D.
+// et al. (2014), NGA-West2 database, Earthquake Spectra 30(3), 989-1005. Four lines of text, of which the
+// third states the unit in prose and the last tells number of values and time step in one of two forms,
+// then the values.
+
 #include "io/records/formats.hpp"
 
 #include <algorithm>

@@ -1,6 +1,8 @@
-// SHAKE's input motions: lines of text, then values row by row, as (8F10.6) prints them, perhaps numbered in
-// a last column. What they are is told to SHAKE beside the file, so that this format has to be named, with dt
-// and unit.
+// Input motions of SHAKE: Schnabel, P. B., Lysmer, J. and Seed, H. B. (1972), SHAKE: a computer program
+// for earthquake response analysis of horizontally layered sites, report EERC 72-12, University of
+// California, Berkeley. Lines of text, then values row by row, as (8F10.6) prints them, perhaps numbered
+// in a last column. What they are is told to SHAKE beside the file, so that this format has to be named,
+// with dt and unit.
 
 #include "io/records/formats.hpp"
 

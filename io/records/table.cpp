@@ -1,3 +1,7 @@
+// Tables of spreadsheets and scripts. They are nobody's format, so that the names of the columns, the
+// comments and the times themselves have to tell what a number is. What none of them tells, the case does.
+
+#include "io/records/first_line.hpp"
 #include "io/records/formats.hpp"
 
 #include <algorithm>
@@ -41,66 +45,6 @@ void add_row(const RecordSource& source, Table& table, const Line& line, std::op
   table.lines.push_back(line);
 }
 
-/// "400 0.01" or "400": a first line of number of values and time step. Its numbers count what follows, and
-/// are written as counts where the others are not.
-struct FirstLine
-{
-  std::size_t count = 0; ///< 0: an ordinary line
-  double dt = NAN;       ///< s
-};
-
-FirstLine counts_what_follows(const RecordSource& source, const std::vector<Line>& data)
-{
-  const auto first = data.size() > 2 ? numbers_in(data[0].text) : std::nullopt;
-  if (!first || first->empty() || first->size() > 2) return {};
-  const std::vector<double> next = numbers_in(data[1].text).value_or(std::vector<double>{});
-  const auto tokens = cells_of(data[0].text, " \t,;");
-  const auto rest = data.size() - 1;
-  const bool is_count =
-      first->front() >= 5 && (is_whole(tokens[0]) || (first->size() == 1 && first->front() == double(rest)));
-  if (!is_count) return {};
-  const std::size_t count = std::size_t(first->front());
-  if (first->size() == 2)
-  {
-    const bool heads = next.size() == 1 || (next.size() == 2 && count == rest && (*first)[1] > 0);
-    if (!heads) return {};
-    if (count != rest || !((*first)[1] > 0))
-      refuse(source, data[0],
-             "announces " + std::to_string(count) + " values at " + number((*first)[1]) + " s, and " +
-                 std::to_string(rest) + " lines follow; mend the first line");
-    refuse_bare_step(source, data[0], (*first)[1]);
-    return {count, (*first)[1]};
-  }
-  if (next.size() != 1) return {};
-  const bool others_whole =
-      std::all_of(data.begin() + 1, data.end(), [](const Line& l) { return is_whole(l.text); });
-  const bool counts = count == rest;
-  if (others_whole && !counts) return {};
-  if (!counts || others_whole || !is_whole(tokens[0]))
-    refuse(source, data[0],
-           "is " + std::string(data[0].text) + ", which looks like a count, and " + std::to_string(rest) +
-               " lines follow; remove the line, or write it with a "
-               "decimal point if it is a value");
-  return {count, NAN};
-}
-
-std::size_t digits_behind_point(std::string_view token)
-{
-  const std::size_t point = token.find('.');
-  if (point == token.npos) return 0;
-  return std::min(token.find_first_not_of("0123456789", point + 1), token.size()) - point;
-}
-
-/// A first value that is the time step given, and written otherwise than the second, is no value.
-void refuse_step_as_value(const RecordSource& source, const std::vector<Line>& data)
-{
-  if (data.size() < 2 || std::isnan(source.dt)) return;
-  const auto first = numbers_in(data[0].text);
-  if (first && first->size() == 1 && first->front() == source.dt &&
-      digits_behind_point(data[0].text) != digits_behind_point(data[1].text))
-    refuse(source, data[0], "is the time step, not a value; remove the line");
-}
-
 Table table_of(const RecordSource& source, const std::vector<Line>& lines, FirstLine& first)
 {
   Table table;
@@ -129,7 +73,7 @@ Table table_of(const RecordSource& source, const std::vector<Line>& lines, First
       table.heading = data.front();
       data.erase(data.begin());
     }
-  first = counts_what_follows(source, data);
+  first = first_line(source, data);
   if (first.count > 0)
   {
     table.notes.push_back(source.file + ": its first line is the number of values" +

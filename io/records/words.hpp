@@ -18,7 +18,7 @@ std::string_view phrase(std::string_view text);
 /// Text behind "of", "are", "is", "in", ":" and "=", which stand between a word as units and what it tells;
 /// `joined`: whether there were any.
 std::string_view without_joints(std::string_view text, bool& joined);
-/// Place behind the word in, where blanks or a bracket follow it; npos if there is none. "in/s2" is a unit.
+/// Index behind the word in, where blanks or a bracket follow it; npos if there is none. "in/s2" is a unit.
 std::size_t behind_in(std::string_view text);
 
 struct QuantityWord
