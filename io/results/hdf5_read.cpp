@@ -135,9 +135,9 @@ bool Group::has_attribute(const std::string& name, const std::string& of) const
 
 Handle Group::open_attribute(const std::string& name, const std::string& of) const
 {
-  const std::string place = where(of) + "@" + name;
-  if (!has_attribute(name, of)) read_error(place, "it is missing");
-  return {readable(H5Aopen_by_name(group_.id(), of.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), place),
+  const std::string path = where(of) + "@" + name;
+  if (!has_attribute(name, of)) read_error(path, "it is missing");
+  return {readable(H5Aopen_by_name(group_.id(), of.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), path),
           H5Aclose};
 }
 
@@ -166,7 +166,7 @@ std::int64_t Group::attribute_int(const std::string& name, const std::string& of
 std::string Group::attribute_string(const std::string& name, const std::string& of) const
 {
   const Handle attribute = open_attribute(name, of);
-  const std::string place = where(of) + "@" + name;
-  return only(strings({attribute.id(), true, place}), place);
+  const std::string path = where(of) + "@" + name;
+  return only(strings({attribute.id(), true, path}), path);
 }
 } // namespace mpm::h5

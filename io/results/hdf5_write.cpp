@@ -139,12 +139,12 @@ void Group::write_texts(const std::string& name, const std::vector<std::string>&
 void Group::put_attribute(const std::string& name, const std::string& of, hid_t type, hid_t memory,
                           const Handle& space, const void* data)
 {
-  const std::string place = where(of) + "@" + name;
+  const std::string path = where(of) + "@" + name;
   const Handle attribute{written(H5Acreate_by_name(group_.id(), of.c_str(), name.c_str(), type, space.id(),
                                                    H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-                                 place),
+                                 path),
                          H5Aclose};
-  if (data) written(H5Awrite(attribute.id(), memory, data), place);
+  if (data) written(H5Awrite(attribute.id(), memory, data), path);
 }
 
 void Group::write_attribute(const std::string& name, std::int64_t value, const std::string& of)

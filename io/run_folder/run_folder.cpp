@@ -82,7 +82,8 @@ std::vector<fs::path> files_in(const fs::path& folder, const std::function<bool(
               fmt::format("{}: cannot write: {}; choose another --out", path.string(), reason));
 }
 
-/// Two files are written in place, the lock and the log: not into another file by a link, nor into no file.
+/// The lock and the log are the two files that are not replaced but written to: a link would lead into
+/// another file, a pipe into none.
 void refuse_link(const fs::path& file)
 {
   const fs::file_status status = fs::symlink_status(file);
