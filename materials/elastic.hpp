@@ -20,15 +20,22 @@ struct Elastic
   double young = NAN;
   double poisson = NAN;
 
-  static constexpr auto parameters()
+  /// The parameters that every law L has.
+  template <class L>
+  static constexpr std::array<Parameter<L>, 3> elastic_parameters()
   {
-    using P = Parameter<Elastic>;
-    return std::array{
-        P{"density", Dimension::density, &Elastic::density, 0, false},
-        P{"young_modulus", Dimension::stress, &Elastic::young, 0, false},
-        P{"poisson_ratio", Dimension::none, &Elastic::poisson, -1, false, 0.5, false},
-    };
+    return {{
+        {"density", "mass per volume, pore water included", Dimension::density, Interval::positive(),
+         &L::density},
+        {"young_modulus", "Young's modulus E", Dimension::stress, Interval::positive(), &L::young},
+        {"poisson_ratio",
+         "Poisson's ratio; above 0.49 costs many more steps",
+         Dimension::none,
+         {.lower = -1, .lower_allowed = false, .upper = 0.5, .upper_allowed = false},
+         &L::poisson},
+    }};
   }
+  static constexpr auto parameters() { return elastic_parameters<Elastic>(); }
   static constexpr std::array<StateField, 0> state_fields() { return {}; }
   /// Parameters that are words, by default none.
   static constexpr std::array<Choice<Elastic>, 0> choices() { return {}; }

@@ -40,22 +40,22 @@ struct MohrCoulomb : Elastic, LinearSoftening
     using P = Parameter<MohrCoulomb>;
     using D = Dimension;
     using L = MohrCoulomb;
-    constexpr double right_angle = 0.5 * std::numbers::pi;
-    return std::array{
-        P{"density", D::density, &L::density, 0, false},
-        P{"young_modulus", D::stress, &L::young, 0, false},
-        P{"poisson_ratio", D::none, &L::poisson, -1, false, 0.5, false},
-        P{"friction_angle.peak", D::angle, &L::friction_peak, 0, true, right_angle, false},
-        P{"friction_angle.residual", D::angle, &L::friction_residual, 0, true, right_angle, false, false},
-        P{"cohesion.peak", D::stress, &L::cohesion_peak, 0, true},
-        P{"cohesion.residual", D::stress, &L::cohesion_residual, 0, true, unlimited, true, false},
-        P{"dilation_angle", D::angle, &L::dilation, 0, true, right_angle, false, false},
-        P{"tension_cutoff", D::stress, &L::tension_cutoff, 0, true, unlimited, true, false},
-        P{"softening.displacement", D::length, &L::softening_displacement, 0, false, unlimited, true, false},
-        P{"softening.band_width", D::length, &L::band_width, 0, false, unlimited, true, false},
-        P{"softening.band_cells", D::none, &L::band_cells, 0, false, unlimited, true, false},
-        P{"softening.strain", D::none, &L::softening_strain, 0, false, unlimited, true, false},
+    constexpr Interval acute{.lower = 0, .upper = 0.5 * std::numbers::pi, .upper_allowed = false};
+    constexpr Interval not_negative = Interval::not_negative();
+    const std::array strength{
+        P{"friction_angle.peak", "phi in (s1 - s3) + (s1 + s3) sin(phi) = 2 c cos(phi), tension positive",
+          D::angle, acute, &L::friction_peak},
+        P{"friction_angle.residual", "friction angle after softening", D::angle, acute, &L::friction_residual,
+          "friction_angle.peak: it stays"},
+        P{"cohesion.peak", "cohesion c", D::stress, not_negative, &L::cohesion_peak},
+        P{"cohesion.residual", "cohesion after softening", D::stress, not_negative, &L::cohesion_residual,
+          "cohesion.peak: it stays"},
+        P{"dilation_angle", "dilation angle of the plastic flow; the friction angle where that is less",
+          D::angle, acute, &L::dilation, "0 deg"},
+        P{"tension_cutoff", "greatest principal stress, beyond which the ground cracks across it", D::stress,
+          not_negative, &L::tension_cutoff, "c cot(phi), the apex of the surface, and never more"},
     };
+    return joined(elastic_parameters<L>(), strength, softening_parameters<L>());
   }
   static constexpr auto state_fields() { return flow_and_cracks; }
 

@@ -41,21 +41,27 @@ struct SlipWeakening : Elastic
     using P = Parameter<SlipWeakening>;
     using D = Dimension;
     using L = SlipWeakening;
-    constexpr double inf = std::numeric_limits<double>::infinity();
-    return std::array{
-        P{"density", D::density, &L::density, 0, false},
-        P{"young_modulus", D::stress, &L::young, 0, false},
-        P{"poisson_ratio", D::none, &L::poisson, -1, false, 0.5, false},
-        P{"friction.peak", D::none, &L::friction_peak, 0, true},
-        P{"friction.residual", D::none, &L::friction_residual, 0, true, inf, true, false},
-        P{"critical_slip", D::length, &L::critical_slip, 0, false, inf, true, false},
-        P{"thickness", D::length, &L::thickness, 0, false},
+    const std::array friction{
+        P{"friction.peak", "friction coefficient mu_p before any slip", D::none, Interval::not_negative(),
+          &L::friction_peak},
+        P{"friction.residual", "mu_r in mu = mu_r + (mu_p - mu_r) exp(ln(0.05) d / d_c) after a slip d",
+          D::none, Interval::not_negative(), &L::friction_residual, "friction.peak: no weakening"},
+        P{"critical_slip", "slip d_c after which 5 % of the drop in friction are left", D::length,
+          Interval::positive(), &L::critical_slip, "none; required if the friction weakens"},
+        P{"thickness",
+          "thickness t of the shear zone, which turns plastic strain into slip, d = sqrt(3) eps t", D::length,
+          Interval::positive(), &L::thickness},
     };
+    return joined(elastic_parameters<L>(), friction);
   }
   static constexpr std::array<std::string_view, 2> match_names{"mc", "plane"};
   static constexpr auto choices()
   {
-    return std::array{Choice<SlipWeakening>{"match", match_names, &SlipWeakening::match}};
+    return std::array{Choice<SlipWeakening>{
+        "match",
+        "how the coefficient becomes an angle: tan(phi) = mu (mc), of which a band in "
+        "simple shear mobilises sin(phi), or sin(phi) = mu (plane), so that it mobilises mu",
+        match_names, &SlipWeakening::match}};
   }
   static constexpr auto state_fields() { return flow_and_opening; }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "materials/parameter.hpp"
+
 #include <cmath>
 #include <string>
 
@@ -17,6 +19,27 @@ struct LinearSoftening
   double band_width = NAN;             ///< m
   double band_cells = NAN;             ///< the width in grid spacings, instead of band_width
   double softening_strain = NAN;       ///< plastic strain at which the residual strength is reached
+
+  /// The parameters of softening of a law L.
+  template <class L>
+  static constexpr std::array<Parameter<L>, 4> softening_parameters()
+  {
+    using D = Dimension;
+    constexpr Interval positive = Interval::positive();
+    return {{
+        {"softening.displacement",
+         "shear displacement across a band over which the strength falls to the residual one; ground that "
+         "softens needs this or softening.strain",
+         D::length, positive, &L::softening_displacement, "none"},
+        {"softening.band_width",
+         "width l of the band that turns the displacement d into a plastic strain, d / (sqrt(3) l)",
+         D::length, positive, &L::band_width, "band_cells times the cell size"},
+        {"softening.band_cells", "the width of the band in cells", D::none, positive, &L::band_cells, "3"},
+        {"softening.strain",
+         "plastic strain over which the strength falls to the residual one, without a band", D::none,
+         positive, &L::softening_strain, "none"},
+    }};
+  }
 
   /// Refuses what would not be used, as `key: what` (empty: nothing). `residual`: whether a residual strength
   /// is given, `residual_key` its key.

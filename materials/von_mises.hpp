@@ -22,20 +22,15 @@ struct VonMises : Elastic, LinearSoftening
 
   static constexpr auto parameters()
   {
-    using P = Parameter<VonMises>;
-    constexpr double inf = std::numeric_limits<double>::infinity();
-    return std::array{
-        P{"density", Dimension::density, &VonMises::density, 0, false},
-        P{"young_modulus", Dimension::stress, &VonMises::young, 0, false},
-        P{"poisson_ratio", Dimension::none, &VonMises::poisson, -1, false, 0.5, false},
-        P{"strength.peak", Dimension::stress, &VonMises::peak, 0, false},
-        P{"strength.residual", Dimension::stress, &VonMises::residual, 0, true, inf, true, false},
-        P{"softening.displacement", Dimension::length, &VonMises::softening_displacement, 0, false, inf, true,
-          false},
-        P{"softening.band_width", Dimension::length, &VonMises::band_width, 0, false, inf, true, false},
-        P{"softening.band_cells", Dimension::none, &VonMises::band_cells, 0, false, inf, true, false},
-        P{"softening.strain", Dimension::none, &VonMises::softening_strain, 0, false, inf, true, false},
+    using L = VonMises;
+    const std::array strength{
+        Parameter<L>{"strength.peak",
+                     "Mises stress q = sqrt(3 J2) at first yield, sqrt(3) times the undrained shear strength",
+                     Dimension::stress, Interval::positive(), &L::peak},
+        Parameter<L>{"strength.residual", "Mises stress after softening", Dimension::stress,
+                     Interval::not_negative(), &L::residual, "strength.peak: perfectly plastic"},
     };
+    return joined(elastic_parameters<L>(), strength, softening_parameters<L>());
   }
   static constexpr std::array<StateField, 1> state_fields()
   {

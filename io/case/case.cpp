@@ -25,7 +25,7 @@ std::string read_file(const std::filesystem::path& path)
 
 void check_schema(Section& root)
 {
-  const std::string given = root.text("schema");
+  const std::string given = root.text({"schema", "the form of the case file", schema});
   if (!given.empty() && given != schema)
     root.error("schema", "is '" + given + "'; this program reads '" + std::string(schema) + "'");
 }
@@ -33,75 +33,82 @@ void check_schema(Section& root)
 GridSettings read_grid(Section grid)
 {
   GridSettings settings;
-  settings.spacing = grid.number("spacing", Dimension::length, Range::positive());
-  settings.particles_per_cell = grid.integer_or(settings.particles_per_cell, "particles_per_cell", 1, 10);
-  settings.average_volume = grid.choice_or(0, "volume_average", {"none", "cell"}) == 1;
-  settings.interfaces = static_cast<Interfaces>(grid.choice_or(0, "interfaces", {"sharp", "averaged"}));
+  settings.spacing = grid.number({"spacing", "cell size h"}, Dimension::length, Interval::positive());
+  settings.particles_per_cell = grid.integer_or(
+      settings.particles_per_cell, {"particles_per_cell", "particles along each side of a cell"}, 1, 10);
+  settings.average_volume =
+      grid.choice_or(0,
+                     {"volume_average", "cell: ground that can yield changes its volume by cells, not by "
+                                        "particles, which unlocks flow at constant volume"},
+                     {"none", "cell"}) == 1;
+  settings.interfaces = static_cast<Interfaces>(grid.choice_or(
+      0,
+      {"interfaces", "averaged: particles within half a cell of an interface have averaged elastic moduli"},
+      {"sharp", "averaged"}));
   return settings;
 }
 
 Extent read_domain(Section domain, Problems& problems)
 {
   Extent extent;
-  if (const YamlNode* x = domain.require("x"))
+  if (const YamlNode* x =
+          domain.require({"x", "the sides, a whole number of cells apart", "[left, right], lengths"}))
   {
     const Point sides = read_point(*x, problems);
     extent.left = sides.x;
     extent.right = sides.y;
     if (sides.x >= sides.y) domain.error("x", "the right side must lie right of the left one");
   }
-  extent.bottom = domain.number("bottom", Dimension::length);
+  extent.bottom = domain.number({"bottom", "height y of the base"}, Dimension::length);
   return extent;
 }
 
-double read_safety(Section& section, double fallback)
+/// `courant_number` of a stage.
+double read_courant_number(Section& section, double fallback, std::string_view meaning)
 {
-  const double courant_number = section.number_or(fallback, "courant_number", Dimension::none,
-                                                  {.lower = 0, .lower_allowed = false, .upper = 1});
-  if (courant_number > stable_courant_number)
-    section.error("courant_number",
-                  fmt::format("is above {}, where loose particles at the surface become unstable; {} is the "
-                              "default of the seismic stage, {} of the static one",
-                              stable_courant_number, usual_courant_number, fast_courant_number));
-  return courant_number;
+  static const std::string reason = fmt::format(
+      "where loose particles at the surface become unstable; {} is the default of the seismic stage, {} of "
+      "the static one",
+      usual_courant_number, fast_courant_number);
+  return section.number_or(
+      fallback, {"courant_number", meaning}, Dimension::none,
+      {.lower = 0, .lower_allowed = false, .upper = stable_courant_number, .reason = reason});
 }
 
 StaticSettings read_static(Section section)
 {
   StaticSettings s;
-  s.gravity = section.number_or(s.gravity, "gravity", Dimension::acceleration, Range::not_negative());
-  s.ramp = section.number_or(s.ramp, "ramp", Dimension::time, Range::positive());
-  s.damping = section.number_or(s.damping, "damping", Dimension::none,
-                                {.lower = 0, .upper = 1, .upper_allowed = false});
-  s.courant_number = read_safety(section, s.courant_number);
-  s.mass_scaling = section.choice_or(0, "masses", {"scaled", "physical"}) == 0;
+  s.gravity = section.number_or(
+      s.gravity, {"gravity", "downwards; 0: no static stage, mpm-seismic starts free of stress"},
+      Dimension::acceleration, Interval::not_negative());
+  s.ramp = section.number_or(s.ramp, {"ramp", "time over which gravity grows"}, Dimension::time,
+                             Interval::positive());
+  s.damping = section.number_or(s.damping, {"damping", "local damping, as a share of the unbalanced force"},
+                                Dimension::none, {.lower = 0, .upper = 1, .upper_allowed = false});
+  s.courant_number = read_courant_number(section, s.courant_number,
+                                         "Courant number dt c_p / h; there are no waves to carry");
+  s.mass_scaling = section.choice_or(0,
+                                     {"masses", "scaled: inertia, not weight, such that waves are as slow "
+                                                "everywhere as in the slowest material"},
+                                     {"scaled", "physical"}) == 0;
   Section until = section.optional_section("until");
-  s.until.unbalanced = until.number_or(s.until.unbalanced, "unbalanced", Dimension::none, Range::positive());
-  s.until.kinetic = until.number_or(s.until.kinetic, "kinetic", Dimension::none, Range::positive());
+  s.until.unbalanced = until.number_or(
+      s.until.unbalanced,
+      {"unbalanced", "converged when the nodes' unbalanced force is this share of the forces on them"},
+      Dimension::none, Interval::positive());
+  s.until.kinetic = until.number_or(
+      s.until.kinetic, {"kinetic", "and the kinetic energy this share of the potential energy of gravity"},
+      Dimension::none, Interval::positive());
   const double default_end = std::max(s.until.at_most, 2 * s.ramp);
-  s.until.at_most = until.number_or(default_end, "at_most", Dimension::time, Range::positive());
+  s.until.at_most = until.number_or(
+      default_end,
+      {"at_most", "model time after which the stage gives up (exit code 81)", "", "60 s, at least two ramps"},
+      Dimension::time, Interval::positive());
   if (s.until.at_most < s.ramp)
     until.error("at_most", "ends before the ramp does; give more than static.ramp");
   return s;
 }
 
-void read_parts(Case& case_file, const YamlNode& tree, Problems& problems)
-{
-  const std::filesystem::path folder = case_file.path.parent_path();
-  Section root(&tree, problems);
-  check_schema(root);
-  case_file.name = root.text_or(case_file.path.stem().string(), "name");
-  case_file.grid = read_grid(root.section("grid"));
-  case_file.domain = read_domain(root.section("domain"), problems);
-  case_file.surfaces = read_surfaces(root, folder, problems);
-  case_file.materials = read_materials(root, case_file.grid.spacing, problems);
-  case_file.regions = read_regions(root, case_file.surfaces, case_file.materials, problems);
-  case_file.static_stage = read_static(root.optional_section("static"));
-  case_file.seismic = read_seismic(root, folder, problems);
-  Section time_step = root.optional_section("time_step");
-  case_file.courant_number = read_safety(time_step, case_file.courant_number);
-  case_file.output = read_output(root, case_file.materials, problems);
-}
 /// All that was read, and what was looked at in another way as it stands.
 Settings::Entries resolved(const Case& case_file, const YamlNode& tree, Settings settings)
 {
@@ -113,6 +120,26 @@ Settings::Entries resolved(const Case& case_file, const YamlNode& tree, Settings
   return settings.entries();
 }
 } // namespace
+
+void read_parts(Case& case_file, const YamlNode& tree, Problems& problems)
+{
+  const std::filesystem::path folder = case_file.path.parent_path();
+  Section root(&tree, problems);
+  check_schema(root);
+  case_file.name = root.text_or(case_file.path.stem().string(),
+                                {"name", "for messages and pictures", "", "name of the file"});
+  case_file.grid = read_grid(root.section("grid"));
+  case_file.domain = read_domain(root.section("domain"), problems);
+  case_file.surfaces = read_surfaces(root, folder, problems);
+  case_file.materials = read_materials(root, case_file.grid.spacing, problems);
+  case_file.regions = read_regions(root, case_file.surfaces, case_file.materials, problems);
+  case_file.static_stage = read_static(root.optional_section("static"));
+  case_file.seismic = read_seismic(root, folder, problems);
+  Section time_step = root.optional_section("time_step");
+  case_file.courant_number = read_courant_number(time_step, case_file.courant_number,
+                                                 "Courant number dt c_p / h; a smaller one damps waves more");
+  case_file.output = read_output(root, case_file.materials, problems);
+}
 
 Case load_case(const std::filesystem::path& path, const std::vector<std::string>& overrides,
                const std::string& profile)

@@ -1,6 +1,6 @@
 #pragma once
-// A case file (YAML) as the programs use it: SI units, everything checked at the door. The keys are the
-// contract of the README's chapter "Case file".
+// A case file (YAML) as the programs use it: SI units, everything checked at the door. README.md lists the
+// keys.
 
 #include "boundaries/ground_motion/ground_motion.hpp"
 #include "io/case/settings.hpp"
@@ -64,7 +64,7 @@ struct Layer
   int region; ///< index in Case::regions
 };
 
-/// When the static stage has converged (METHODS section 3); checked after the ramp.
+/// When the static stage has converged; checked after the ramp.
 struct Convergence
 {
   double unbalanced = 1e-6; ///< sum of |nodal force| over sum of |internal| + |external|

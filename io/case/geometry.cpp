@@ -130,7 +130,8 @@ void refuse_slopes_on_sides(const Case& case_file, const YamlNode& tree, Problem
   }
 }
 
-/// A free-field column stands for level layers: METHODS section 5 asks for one slope height of them.
+/// A free-field column stands for level layers. What a slope scatters reaches the side as if from far away
+/// only where there is level ground between them, for which one slope height is the usual least.
 void warn_of_slopes_at_sides(Case& case_file)
 {
   if (case_file.seismic.sides != SideKind::free_field) return;

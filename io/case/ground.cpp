@@ -52,21 +52,31 @@ void resolve_points(const Section& section, const Polyline& line, Problems& prob
 GaussianHill read_hill(Section section)
 {
   GaussianHill hill;
-  hill.base = section.number("base", Dimension::length);
-  hill.rise = section.number("height", Dimension::length);
-  hill.centre = section.number("centre", Dimension::length);
-  hill.width = section.number("width", Dimension::length, Range::positive());
-  hill.side = static_cast<GaussianHill::Side>(section.choice_or(0, "side", {"both", "right", "left"}));
+  hill.base = section.number({"base", "height of the lower level"}, Dimension::length);
+  hill.rise = section.number({"height", "of the hill above it"}, Dimension::length);
+  hill.centre = section.number({"centre", "x of its top"}, Dimension::length);
+  hill.width = section.number({"width", "of the hill, where 37 % of its height are left"}, Dimension::length,
+                              Interval::positive());
+  hill.side = static_cast<GaussianHill::Side>(section.choice_or(
+      0, {"side", "right or left: the hill falls on this side only, and keeps its full height on the other"},
+      {"both", "right", "left"}));
   return hill;
 }
+
+constexpr std::string_view one_of_four = "none, but one of points, offset, file and gaussian is required";
 
 Offset read_surface(Section section, Surface& surface, const std::filesystem::path& folder,
                     const std::vector<std::string>& names, Problems& problems)
 {
-  const YamlNode* points = section.find("points");
-  const YamlNode* offset = section.find("offset");
-  const YamlNode* file = section.find("file");
-  const YamlNode* hill = section.find("gaussian");
+  const YamlNode* points = section.find(
+      {"points", "straight between the points, level beyond", "[[x, y], ...], lengths", one_of_four});
+  const YamlNode* offset =
+      section.find({"offset", "another surface, moved up", "name of a surface", one_of_four});
+  const YamlNode* file =
+      section.find({"file", "text file of x and y, in m or in the units of its heading: x (ft), y (ft)",
+                    "path, relative to the case file", one_of_four});
+  const YamlNode* hill = section.find(
+      {"gaussian", "base + height exp(-((x - centre) / width)^2)", "map of the keys below", one_of_four});
   if (!section.given()) return {};
   if (!!points + !!offset + !!file + !!hill != 1)
   {
@@ -86,7 +96,8 @@ Offset read_surface(Section section, Surface& surface, const std::filesystem::pa
   }
   if (hill) surface.shape = read_hill(Section(hill, problems));
   if (!offset) return {};
-  return {read_choice(*offset, names, problems), section.number("up", Dimension::length)};
+  return {read_choice(*offset, names, problems),
+          section.number({"up", "with offset: how far above the other surface"}, Dimension::length)};
 }
 
 /// Gives offset surfaces the shape at the end of their chain.
@@ -132,14 +143,18 @@ Region read_region(const YamlNode& node, const std::vector<std::string>& surface
   Region region;
   region.location = node.location.text() + ": " + node.path;
   Section section(&node, problems);
-  if (const YamlNode* name = section.require("material"))
+  if (const YamlNode* name = section.require({"material", "one of the materials", "name"}))
     region.material = read_choice(*name, materials, problems);
-  if (const YamlNode* name = section.find("above")) region.above = read_choice(*name, surfaces, problems);
-  if (const YamlNode* name = section.find("below"))
+  if (const YamlNode* name = section.find(
+          {"above", "the surface that bounds the region below", "name of a surface", "the base"}))
+    region.above = read_choice(*name, surfaces, problems);
+  if (const YamlNode* name =
+          section.find({"below", "the surface that bounds the region above", "name of a surface"}))
     region.below = read_choice(*name, surfaces, problems);
   else
     section.error("below", "is missing; the domain is open above, name the surface that bounds the region");
-  if (const YamlNode* x = section.find("x"))
+  if (const YamlNode* x = section.find({"x", "the sides of the region, to the nearest column of particles",
+                                        "[left, right], lengths", "the sides of the domain"}))
   {
     const Point sides = read_point(*x, problems);
     if (sides.x >= sides.y) section.error("x", "the right end must lie right of the left one");
@@ -153,7 +168,8 @@ Region read_region(const YamlNode& node, const std::vector<std::string>& surface
 std::vector<Surface> read_surfaces(Section& root, const std::filesystem::path& folder, Problems& problems)
 {
   std::vector<Surface> surfaces;
-  const YamlNode* node = root.require("surfaces");
+  const YamlNode* node =
+      root.require({"surfaces", "lines y(x) that bound the ground", "map of names to the keys below"});
   if (!node) return surfaces;
   if (node->kind != YamlNode::Kind::map)
     return problems.add(node->location, node->path,
@@ -175,7 +191,9 @@ std::vector<Region> read_regions(Section& root, const std::vector<Surface>& surf
   std::vector<std::string> known;
   for (const Material& m : materials) known.push_back(m.name);
   std::vector<Region> regions;
-  const YamlNode* node = root.require("regions");
+  const YamlNode* node =
+      root.require({"regions", "the ground between surfaces; the first that holds a point has it",
+                    "list of maps of the keys below"});
   if (!node) return regions;
   const auto elements = read_list(*node, "of regions, as [{material: rock, below: ground}]", problems);
   if (node->kind == YamlNode::Kind::list && elements.empty())

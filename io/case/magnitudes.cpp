@@ -128,7 +128,7 @@ void warn_of_settings(Case& case_file)
 /// Greatest weight upon a material in level columns anywhere (its own included), Pa; height of the ground, m.
 struct Overburden
 {
-  std::vector<double> stress; ///< by material, at its lowest place
+  std::vector<double> stress; ///< by material, at its lowest point
   double strain = 0;          ///< greatest vertical strain under the own weight
   double height = 0;
   int softest = -1; ///< material of the greatest strain

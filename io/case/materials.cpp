@@ -10,13 +10,14 @@ namespace
 /// A law's parameter without the law's type: a number, or a word out of a few.
 struct Target
 {
-  std::string_view key; ///< below the section at hand
+  Key key; ///< below the section at hand
   Dimension dimension;
-  Range range;
-  bool required;
+  Interval range;
   double* value;
   int* choice = nullptr;
   std::vector<std::string> names = {};
+
+  bool required() const { return !choice && key.otherwise.empty(); }
 };
 
 template <class L>
@@ -24,15 +25,15 @@ std::vector<Target> targets_of(L& law)
 {
   std::vector<Target> targets;
   for (const auto& p : L::parameters())
-    targets.push_back({p.key,
-                       p.dimension,
-                       {p.lower, p.lower_allowed, p.upper, p.upper_allowed},
-                       p.required,
-                       &(law.*p.value)});
+    targets.push_back({{p.key, p.meaning, "", p.otherwise}, p.dimension, p.range, &(law.*p.value)});
   if constexpr (!L::choices().empty())
     for (const auto& c : L::choices())
-      targets.push_back(
-          {c.key, Dimension::none, {}, false, nullptr, &(law.*c.value), {c.names.begin(), c.names.end()}});
+      targets.push_back({{c.key, c.meaning},
+                         Dimension::none,
+                         {},
+                         nullptr,
+                         &(law.*c.value),
+                         {c.names.begin(), c.names.end()}});
   return targets;
 }
 
@@ -42,25 +43,28 @@ void read_targets(Section& section, const std::vector<Target>& targets)
   std::vector<std::string_view> groups;
   for (const Target& t : targets)
   {
-    const auto dot = t.key.find('.');
+    const std::string_view name = t.key.name;
+    const auto dot = name.find('.');
     if (dot == std::string_view::npos && t.choice)
       *t.choice = section.choice_or(*t.choice, t.key, t.names);
     else if (dot == std::string_view::npos)
-      *t.value = t.required ? section.number(t.key, t.dimension, t.range)
-                            : section.number_or(*t.value, t.key, t.dimension, t.range);
-    else if (std::find(groups.begin(), groups.end(), t.key.substr(0, dot)) == groups.end())
-      groups.push_back(t.key.substr(0, dot));
+      *t.value = t.required() ? section.number(t.key, t.dimension, t.range)
+                              : section.number_or(*t.value, t.key, t.dimension, t.range);
+    else if (std::find(groups.begin(), groups.end(), name.substr(0, dot)) == groups.end())
+      groups.push_back(name.substr(0, dot));
   }
   for (const std::string_view group : groups)
   {
     std::vector<Target> below;
     for (Target t : targets)
-      if (t.key.size() > group.size() && t.key.starts_with(group) && t.key[group.size()] == '.')
+      if (t.key.name.size() > group.size() && t.key.name.starts_with(group) &&
+          t.key.name[group.size()] == '.')
       {
-        t.key.remove_prefix(group.size() + 1);
+        t.key.name.remove_prefix(group.size() + 1);
         below.push_back(t);
       }
-    const bool required = std::any_of(below.begin(), below.end(), [](const Target& t) { return t.required; });
+    const bool required =
+        std::any_of(below.begin(), below.end(), [](const Target& t) { return t.required(); });
     Section child = required ? section.section(group) : section.optional_section(group);
     read_targets(child, below);
   }
@@ -75,13 +79,6 @@ void for_each_law(const F& f)
     (f(std::variant_alternative_t<i, Law>{}), ...);
   }
   (std::make_index_sequence<std::variant_size_v<Law>>{});
-}
-
-std::vector<std::string> model_names()
-{
-  std::vector<std::string> names;
-  for_each_law([&](const auto& law) { names.emplace_back(law.model); });
-  return names;
 }
 
 /// Notes what the law finds wrong as a whole, at the deepest key of its message that the file has.
@@ -109,8 +106,8 @@ template <class L>
 void note_resolved(const std::string& path, L& law, double spacing, Settings& settings)
 {
   for (const Target& t : targets_of(law))
-    if (!t.choice && !t.key.starts_with("softening.") && std::isfinite(*t.value))
-      settings.set(path + "." + std::string(t.key), quantity_text(*t.value, t.dimension));
+    if (!t.choice && !t.key.name.starts_with("softening.") && std::isfinite(*t.value))
+      settings.set(path + "." + std::string(t.key.name), quantity_text(*t.value, t.dimension));
   if constexpr (std::derived_from<L, LinearSoftening>)
   {
     if (std::isnan(law.softening_displacement) || !std::isnan(law.band_width)) return;
@@ -120,22 +117,18 @@ void note_resolved(const std::string& path, L& law, double spacing, Settings& se
   }
 }
 
-/// Every key is known while the model is not.
-void accept_all(Section& section, const YamlNode& node)
-{
-  for (const YamlNode& child : node.children) section.find(child.key);
-}
-
 Material read_material(const YamlNode& node, double spacing, Problems& problems)
 {
   Material material{node.key, {}, {}};
   Section section(&node, problems);
   if (!section.given()) return material;
-  const YamlNode* model = section.require("model");
-  const int kind = model ? read_choice(*model, model_names(), problems) : -1;
+  const std::vector<std::string> models = model_names();
+  const std::string names = either(models);
+  const YamlNode* model = section.require({"model", "the constitutive law", names});
+  const int kind = model ? read_choice(*model, models, problems) : -1;
   if (kind < 0)
   {
-    accept_all(section, node);
+    section.accept_all(); // every key is known while the model is not
     return material;
   }
   int i = 0;
@@ -156,10 +149,18 @@ Material read_material(const YamlNode& node, double spacing, Problems& problems)
 }
 } // namespace
 
+std::vector<std::string> model_names()
+{
+  std::vector<std::string> names;
+  for_each_law([&](const auto& law) { names.emplace_back(law.model); });
+  return names;
+}
+
 std::vector<Material> read_materials(Section& root, double spacing, Problems& problems)
 {
   std::vector<Material> materials;
-  const YamlNode* node = root.require("materials");
+  const YamlNode* node =
+      root.require({"materials", "what the ground is made of", "map of names to the keys below"});
   if (!node) return materials;
   if (node->kind != YamlNode::Kind::map || node->children.empty())
     problems.add(node->location, node->path,

@@ -20,8 +20,12 @@ std::vector<std::string> fields_of(const std::vector<Material>& materials)
 FrameSettings read_frames(Section section, const std::vector<Material>& materials, Problems& problems)
 {
   FrameSettings frames;
-  frames.every = section.number_or(frames.every, "every", Dimension::time, Range::positive());
-  const YamlNode* fields = section.find("fields");
+  frames.every = section.number_or(frames.every, {"every", "time between frames"}, Dimension::time,
+                                   Interval::positive());
+  const YamlNode* fields =
+      section.find({"fields", "what the frames hold of each particle",
+                    "list of displacement, velocity, stress and the laws' history variables",
+                    "all that the materials have"});
   if (!fields)
   {
     frames.fields = fields_of(materials);
@@ -41,8 +45,11 @@ FrameSettings read_frames(Section section, const std::vector<Material>& material
 GaugeSettings read_gauges(Section section, Problems& problems)
 {
   GaugeSettings gauges;
-  gauges.every = section.number_or(gauges.every, "every", Dimension::time, Range::positive());
-  const YamlNode* points = section.find("points");
+  gauges.every = section.number_or(
+      gauges.every, {"every", "sampling of gauges and free field, which the time step divides"},
+      Dimension::time, Interval::positive());
+  const YamlNode* points = section.find(
+      {"points", "gauges by name; each follows its material", "map of names to [x, y], lengths", "none"});
   if (!points) return gauges;
   if (points->kind != YamlNode::Kind::map)
     problems.add(points->location, points->path, "must be a map of names, as {crest: [50 m, 35 m]}");
@@ -58,8 +65,9 @@ GaugeSettings read_gauges(Section section, Problems& problems)
 CheckpointSettings read_checkpoint(Section section)
 {
   CheckpointSettings checkpoint;
-  checkpoint.every = section.number_or(checkpoint.every, "every", Dimension::time, Range::positive());
-  checkpoint.keep = section.integer_or(checkpoint.keep, "keep", 1, 1000);
+  checkpoint.every = section.number_or(checkpoint.every, {"every", "wall time between checkpoints"},
+                                       Dimension::time, Interval::positive());
+  checkpoint.keep = section.integer_or(checkpoint.keep, {"keep", "how many checkpoints stay"}, 1, 1000);
   return checkpoint;
 }
 } // namespace

@@ -6,6 +6,8 @@
 
 namespace mpm
 {
+/// Reads all of a case from its tree, but for what only shows when the parts are put together.
+void read_parts(Case& case_file, const YamlNode& tree, Problems& problems);
 std::vector<Surface> read_surfaces(Section& root, const std::filesystem::path& folder, Problems& problems);
 /// A line of the ground from a text file of x and y, in m unless its heading names another unit of length.
 Polyline read_ground_file(const YamlNode& node, const std::filesystem::path& folder, Problems& problems);
@@ -13,12 +15,14 @@ Polyline read_ground_file(const YamlNode& node, const std::filesystem::path& fol
 void check_extents(const Case& case_file, const YamlNode& tree, Problems& problems);
 std::vector<Region> read_regions(Section& root, const std::vector<Surface>& surfaces,
                                  const std::vector<Material>& materials, Problems& problems);
+/// The names of the laws, in the order of `Law`.
+std::vector<std::string> model_names();
 std::vector<Material> read_materials(Section& root, double spacing, Problems& problems);
 SeismicSettings read_seismic(Section& root, const std::filesystem::path& folder, Problems& problems);
 OutputSettings read_output(Section& root, const std::vector<Material>& materials, Problems& problems);
 
-/// What only shows when the parts are put together: grid, gauges and regions that do not fit, with the place
-/// of the key at fault. Adds warnings to the case.
+/// What only shows when the parts are put together: grid, gauges and regions that do not fit, with the
+/// location of the key at fault. Adds warnings to the case.
 void check_geometry(Case& case_file, const YamlNode& tree, Problems& problems);
 
 /// Warns of what the laws say against their parameters, and of strength that falls faster than stress

@@ -1,4 +1,5 @@
 #include "io/case/sections.hpp"
+#include "io/common/suggestion.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -25,36 +26,52 @@ MotionSource read_source(const YamlNode& node, const std::filesystem::path& fold
     return source;
   }
   Section section(&node, problems);
-  source.record.file = beside(folder, section.text("file"));
+  source.record.file = beside(folder, section.text({"file", "record of the motion, see io/records",
+                                                    "path, relative to the case file"}));
   if (section.given() && !source.record.file.empty())
     section.resolve("file", std::filesystem::absolute(source.record.file).string());
   const std::vector<std::string> formats = record_formats();
-  source.record.format = formats[section.choice_or(0, "format", formats)];
-  source.record.dt = section.number_or(NAN, "dt", Dimension::time, Range::positive());
-  source.record.unit = section.text_or("", "unit");
+  source.record.format =
+      formats[section.choice_or(0, {"format", "format of the file, where it does not show it"}, formats)];
+  source.record.dt = section.number_or(
+      NAN, {"dt", "time step of the record, where the file does not tell it", "", "from the file"},
+      Dimension::time, Interval::positive());
+  source.record.unit = section.text_or("", {"unit", "unit of the record, where the file does not tell it",
+                                            "as g, gal, m/s2, cm/s or m", "from the file"});
   if (!source.record.unit.empty() && !is_record_unit(source.record.unit))
     section.error("unit",
                   "is '" + source.record.unit + "'; must be a unit of records, as g, gal, m/s2, cm/s or m");
   const std::vector<std::string> quantities{"acceleration", "velocity", "displacement"};
-  if (section.find("quantity"))
-    source.record.quantity = static_cast<Quantity>(section.choice("quantity", quantities));
-  source.record.origin = section.text_or("", "origin");
-  source.record.component = section.text_or("", "component");
-  source.scale = section.number_or(1, "scale", Dimension::none);
+  const std::string either_quantity = either(quantities);
+  if (const YamlNode* quantity =
+          section.find({"quantity", "what the record is of, where neither file nor unit tells it",
+                        either_quantity, "from the file, or from the unit"}))
+    source.record.quantity = static_cast<Quantity>(std::max(0, read_choice(*quantity, quantities, problems)));
+  source.record.origin =
+      section.text_or("", {"origin", "where the file can be had, told when it is missing", "", "none"});
+  source.record.component = section.text_or(
+      "", {"component", "which one of a file that holds several, as the file names it: N, E-W, S16W, 340 deg",
+           "", "its only one"});
+  source.scale = section.number_or(1, {"scale", "factor on the record"}, Dimension::none);
   return source;
 }
 
-std::optional<MotionSource> read_direction(Section& motion, std::string_view key,
+std::optional<MotionSource> read_direction(Section& motion, std::string_view key, std::string_view otherwise,
                                            const std::filesystem::path& folder, Problems& problems)
 {
-  const YamlNode* node = motion.find(key);
+  const YamlNode* node =
+      motion.find({key, "the record of this direction; built_in is a synthetic motion of the program's own",
+                   "built_in, or a map of the keys below", otherwise});
   if (!node) return std::nullopt;
   return read_source(*node, folder, problems);
 }
 
 RecordedAs read_recorded_as(Section& motion, Problems& problems)
 {
-  const YamlNode* node = motion.require("recorded_as");
+  const YamlNode* node = motion.require(
+      {"recorded_as",
+       "outcrop: recorded on rock at the surface, twice the upgoing wave; upgoing: that wave itself",
+       "outcrop or upgoing"});
   if (!node) return RecordedAs::outcrop;
   if (node->kind == YamlNode::Kind::scalar && node->text == "within")
   {
@@ -68,7 +85,10 @@ RecordedAs read_recorded_as(Section& motion, Problems& problems)
 /// `never`, `self_driven` or a time.
 void read_end(Section& motion, MotionSettings& settings, Problems& problems)
 {
-  const YamlNode* node = motion.find("end");
+  const YamlNode* node = motion.find(
+      {"end",
+       "when the motion fades, within half a second: before this time, or after the slide goes on by itself",
+       "never, self_driven or a time", "never"});
   if (!node) motion.resolve("end", "never");
   if (!node || node->text == "never") return;
   if (node->text == "self_driven")
@@ -79,7 +99,7 @@ void read_end(Section& motion, MotionSettings& settings, Problems& problems)
   if (node->kind == YamlNode::Kind::scalar && parse_quantity(node->text, Dimension::time).problem.empty())
   {
     settings.end = MotionEnd::time;
-    settings.end_time = read_number(*node, Dimension::time, Range::positive(), problems);
+    settings.end_time = read_number(*node, Dimension::time, Interval::positive(), problems);
     return;
   }
   problems.add(node->location, node->path,
@@ -90,14 +110,18 @@ void read_end(Section& motion, MotionSettings& settings, Problems& problems)
 /// `none`, `auto` or a time.
 SpringTime read_spring(Section& base, BaseKind kind, Problems& problems)
 {
-  const YamlNode* node = base.find("spring");
+  const YamlNode* node = base.find(
+      {"spring",
+       "time T of the compliant base's spring, which lets it carry lasting loads; auto: the longest period "
+       "of level ground in the domain",
+       "auto, none or a time", "auto"});
   if (!node) base.resolve("spring", "auto"); // of a compliant base: see load_case
   if (!node || node->text == "auto") return {};
   if (node->text == "none") return 0;
   if (node->kind == YamlNode::Kind::scalar && parse_quantity(node->text, Dimension::time).problem.empty())
   {
     if (kind == BaseKind::fixed) base.error("spring", "a fixed base has no spring; leave it out");
-    return read_number(*node, Dimension::time, Range::positive(), problems);
+    return read_number(*node, Dimension::time, Interval::positive(), problems);
   }
   problems.add(node->location, node->path,
                "must be none, auto or a time as '1 s'" + suggestion(node->text, {"none", "auto"}));
@@ -122,11 +146,13 @@ double after_record(std::string_view text)
 
 void read_duration(Section& section, SeismicSettings& settings, Problems& problems)
 {
-  const YamlNode* node = section.require("duration");
+  const YamlNode* node =
+      section.require({"duration", "of shaking and run-out; record: to the end of the longer record",
+                       "a time, record, or record + a time"});
   if (!node) return;
   if (node->kind != YamlNode::Kind::scalar || !node->text.starts_with(with_record))
   {
-    settings.duration = read_number(*node, Dimension::time, Range::positive(), problems);
+    settings.duration = read_number(*node, Dimension::time, Interval::positive(), problems);
     return;
   }
   settings.duration = NAN;
@@ -144,8 +170,9 @@ MotionSettings read_motion(Section motion, const std::filesystem::path& folder, 
   if (motion.given())
   {
     settings.processing.recorded_as = read_recorded_as(motion, problems);
-    settings.horizontal = read_direction(motion, "horizontal", folder, problems);
-    settings.vertical = read_direction(motion, "vertical", folder, problems);
+    settings.horizontal =
+        read_direction(motion, "horizontal", "built_in without seismic.motion, else none", folder, problems);
+    settings.vertical = read_direction(motion, "vertical", "none", folder, problems);
   }
   else
   {
@@ -156,11 +183,16 @@ MotionSettings read_motion(Section motion, const std::filesystem::path& folder, 
     motion.error("", "has no record; give horizontal, vertical or both (built_in is the program's own)");
   const std::vector<std::string> baselines{"none", "linear", "quadratic", "cubic"};
   MotionProcessing& processing = settings.processing;
-  processing.baseline =
-      static_cast<Baseline>(motion.choice_or(static_cast<int>(processing.baseline), "baseline", baselines));
-  processing.taper = motion.number_or(processing.taper, "taper", Dimension::time, Range::not_negative());
-  processing.high_pass =
-      motion.number_or(processing.high_pass, "high_pass", Dimension::frequency, Range::not_negative());
+  processing.baseline = static_cast<Baseline>(
+      motion.choice_or(static_cast<int>(processing.baseline),
+                       {"baseline", "polynomial taken from the velocity so that it ends at 0"}, baselines));
+  processing.taper = motion.number_or(
+      processing.taper,
+      {"taper", "cosine taper of the velocity at both ends", "", "0.5 s; 0 s without any other correction"},
+      Dimension::time, Interval::not_negative());
+  processing.high_pass = motion.number_or(
+      processing.high_pass, {"high_pass", "corner of a Butterworth filter run forth and back; 0 Hz: off"},
+      Dimension::frequency, Interval::not_negative());
   read_end(motion, settings, problems);
   return settings;
 }
@@ -174,19 +206,36 @@ SeismicSettings read_seismic(Section& root, const std::filesystem::path& folder,
   read_duration(section, settings, problems);
   {
     Section base = section.optional_section("base");
-    settings.base = static_cast<BaseKind>(base.choice_or(0, "kind", {"compliant", "fixed"}));
+    settings.base = static_cast<BaseKind>(
+        base.choice_or(0, {"kind", "compliant: lets waves out, the motion comes in; fixed: takes no motion"},
+                       {"compliant", "fixed"}));
     if (settings.base == BaseKind::fixed && !std::isnan(settings.after_record))
       section.error("duration", "counts from a record, and a fixed base takes none; give a time as '24 s'");
     settings.spring = read_spring(base, settings.base, problems);
     Section sides = section.optional_section("sides");
-    settings.sides = static_cast<SideKind>(sides.choice_or(0, "kind", {"free_field", "quiet", "roller"}));
+    settings.sides =
+        static_cast<SideKind>(sides.choice_or(0,
+                                              {"kind", "free_field: columns of level ground beside the "
+                                                       "domain; quiet: dashpots; roller: no sideways motion"},
+                                              {"free_field", "quiet", "roller"}));
   }
   settings.flip_blend =
-      section.number_or(0, "flip_blend", Dimension::none, {.lower = 0, .upper = 1, .upper_allowed = false});
-  settings.flip_ends = static_cast<FlipEnds>(section.choice_or(0, "flip_ends", {"on_slide", "never"}));
-  settings.inertia = static_cast<Inertia>(section.choice_or(0, "inertia", {"lumped", "consistent"}));
-  settings.leaving = static_cast<GroundLeaving>(section.choice_or(0, "leaving", {"remove", "stop"}));
-  settings.rest_below = section.number_or(0, "rest_below", Dimension::velocity, Range::not_negative());
+      section.number_or(0, {"flip_blend", "share of FLIP in the velocity update, which damps waves less"},
+                        Dimension::none, {.lower = 0, .upper = 1, .upper_allowed = false});
+  settings.flip_ends = static_cast<FlipEnds>(section.choice_or(
+      0, {"flip_ends", "on_slide: the share of FLIP fades within a second once ground has slid"},
+      {"on_slide", "never"}));
+  settings.inertia = static_cast<Inertia>(
+      section.choice_or(0, {"inertia", "consistent: waves travel at their speed down to ten cells a wave"},
+                        {"lumped", "consistent"}));
+  settings.leaving = static_cast<GroundLeaving>(section.choice_or(
+      0, {"leaving", "what becomes of ground that passes a side or the base; stop: the run ends then"},
+      {"remove", "stop"}));
+  settings.rest_below =
+      section.number_or(0,
+                        {"rest_below", "once the motion is over, ground slower than this for a second is "
+                                       "skipped until something moves beside it; 0: none is"},
+                        Dimension::velocity, Interval::not_negative());
   settings.motion = read_motion(section.optional_section("motion"), folder, problems);
   return settings;
 }

@@ -74,11 +74,11 @@ void emit(YAML::Emitter& out, const YamlNode& node)
 
 void Settings::set(const std::string& path, const std::string& value)
 {
-  const auto [place, is_new] = places_.try_emplace(path, all_.size());
+  const auto [entry, is_new] = indices_.try_emplace(path, all_.size());
   if (is_new)
     all_.emplace_back(path, value);
   else
-    all_[place->second].second = value;
+    all_[entry->second].second = value;
 }
 
 void Settings::drop(const std::string& path)

@@ -21,12 +21,12 @@ public:
   /// Takes a key out for good: others stand for it.
   void drop(const std::string& path);
   /// Whether a key was set or dropped.
-  bool knows(const std::string& path) const { return places_.contains(path); }
+  bool knows(const std::string& path) const { return indices_.contains(path); }
   Entries entries() const;
 
 private:
   Entries all_; ///< empty values: dropped
-  std::map<std::string, std::size_t, std::less<>> places_;
+  std::map<std::string, std::size_t, std::less<>> indices_;
 };
 
 /// The value of an empty list.

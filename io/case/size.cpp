@@ -10,9 +10,9 @@ namespace mpm
 {
 namespace
 {
-// Bytes of a particle: 19 doubles and the id in a checkpoint, its place besides in memory; what is written is
-// put together there, and files take a fifth more than they hold. Peaks measured: 146 and 209 MB in the two
-// stages of cases/slope with 273 817 particles, 313 MB for 720 000 elastic ones.
+// Bytes of a particle: 19 doubles and the id in a checkpoint, its rank in its block besides in memory; what
+// is written is put together there, and files take a fifth more than they hold. Peaks measured: 146 and 209
+// MB in the two stages of cases/slope with 273 817 particles, 313 MB for 720 000 elastic ones.
 constexpr double saved = 160, held = 172, base = 30e6, written = 1.2;
 constexpr double node_bytes = 72;
 constexpr double column_bytes = 64;           // the outline and what it is drawn from
@@ -31,7 +31,7 @@ double history_variables(const Case& case_file)
 /// Bytes of a particle in a frame.
 double frame_bytes(const Case& case_file)
 {
-  double numbers = 6; // place, id, material, volume
+  double numbers = 6; // position, id, material, volume
   for (const std::string& field : case_file.output.frames.fields)
     numbers += field == "displacement" || field == "velocity" ? 3 : field == "stress" ? 4 : 1;
   return 8 * numbers;

@@ -56,12 +56,6 @@ std::string_view trimmed(std::string_view text)
   return text.substr(from, text.find_last_not_of(" \t") - from + 1);
 }
 
-/// What a user would write: degrees, not radians.
-std::string_view usual_unit(Dimension dimension)
-{
-  return dimension == Dimension::angle ? "deg" : si_unit(dimension);
-}
-
 std::string without_carets(std::string_view text)
 {
   std::string plain(text);
@@ -124,6 +118,11 @@ std::string_view si_unit(Dimension dimension)
   return "";
 }
 
+std::string_view usual_unit(Dimension dimension)
+{
+  return dimension == Dimension::angle ? "deg" : si_unit(dimension);
+}
+
 std::string_view name_of(Dimension dimension)
 {
   switch (dimension)
@@ -155,6 +154,12 @@ std::string number_text(double value)
   std::array<char, 32> buffer;
   const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
   return {buffer.data(), end};
+}
+
+std::string usual_quantity_text(double value, Dimension dimension)
+{
+  if (dimension != Dimension::angle) return quantity_text(value, dimension);
+  return fmt::format("{:.12g} deg", value * 180 / std::numbers::pi);
 }
 
 std::string quantity_text(double value, Dimension dimension)

@@ -19,6 +19,8 @@ Quantified parse_quantity(std::string_view text, Dimension dimension);
 
 /// The units that a dimension may carry, for messages: "Pa, kPa, MPa or GPa".
 std::string units_of(Dimension dimension);
+/// The unit in which people write its values, degrees instead of radians; empty for a pure number.
+std::string_view usual_unit(Dimension dimension);
 /// The unit in which its values are kept: "Pa"; empty for a pure number.
 std::string_view si_unit(Dimension dimension);
 std::string_view name_of(Dimension dimension);
@@ -27,6 +29,8 @@ std::string_view name_of(Dimension dimension);
 std::string number_text(double value);
 /// The same with the SI unit of the dimension: "70000 Pa".
 std::string quantity_text(double value, Dimension dimension);
+/// A number in SI with the unit in which people write it, rounded to 12 digits: "90 deg".
+std::string usual_quantity_text(double value, Dimension dimension);
 /// "a, b or c".
 template <class Names>
 std::string either(const Names& names)

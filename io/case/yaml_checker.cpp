@@ -1,5 +1,8 @@
 #include "io/case/yaml_checker.hpp"
 
+#include "io/case/renamed_keys.hpp"
+#include "io/common/suggestion.hpp"
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -24,6 +27,23 @@ std::string_view kind_of(const YamlNode& node)
   return "";
 }
 
+/// "length, above 0 m", "number"
+std::string form_of(Dimension dimension, const Interval& interval)
+{
+  const std::string type(dimension == Dimension::none ? "number" : name_of(dimension));
+  const std::string bounds = interval_text(interval, dimension);
+  if (!bounds.empty()) return type + ", " + bounds;
+  return dimension == Dimension::none ? type : type + " in " + std::string(usual_unit(dimension));
+}
+
+/// A path without the indices of its lists' elements: regions[0].x as regions[N].x.
+std::string without_indices(std::string path)
+{
+  for (auto open = path.find('['); open != std::string::npos; open = path.find('[', open + 1))
+    path.replace(open + 1, path.find(']', open) - open - 1, "N");
+  return path;
+}
+
 bool is_scalar(const YamlNode& node, std::string_view wanted, Problems& problems)
 {
   if (node.kind == YamlNode::Kind::scalar) return true;
@@ -32,22 +52,18 @@ bool is_scalar(const YamlNode& node, std::string_view wanted, Problems& problems
 }
 } // namespace
 
-bool Range::holds(double value) const
-{
-  return (lower_allowed ? value >= lower : value > lower) && (upper_allowed ? value <= upper : value < upper);
-}
-
-std::string Range::text(Dimension dimension) const
+std::string interval_text(const Interval& interval, Dimension dimension)
 {
   std::string text;
-  if (std::isfinite(lower)) text = (lower_allowed ? "at least " : "above ") + quantity_text(lower, dimension);
-  if (std::isfinite(upper))
-    text += (text.empty() ? "" : " and ") + std::string(upper_allowed ? "at most " : "below ") +
-            quantity_text(upper, dimension);
+  if (std::isfinite(interval.lower))
+    text = (interval.lower_allowed ? "at least " : "above ") + usual_quantity_text(interval.lower, dimension);
+  if (std::isfinite(interval.upper))
+    text += (text.empty() ? "" : " and ") + std::string(interval.upper_allowed ? "at most " : "below ") +
+            usual_quantity_text(interval.upper, dimension);
   return text;
 }
 
-double read_number(const YamlNode& node, Dimension dimension, const Range& range, Problems& problems)
+double read_number(const YamlNode& node, Dimension dimension, const Interval& interval, Problems& problems)
 {
   const std::string wanted = dimension == Dimension::none
                                  ? "a number"
@@ -60,8 +76,10 @@ double read_number(const YamlNode& node, Dimension dimension, const Range& range
     return NAN;
   }
   problems.settings.set(node.path, quantity_text(number.value, dimension));
-  if (range.holds(number.value)) return number.value;
-  problems.add(node.location, node.path, "is " + node.text + "; must be " + range.text(dimension));
+  if (interval.holds(number.value)) return number.value;
+  const std::string reason = interval.reason.empty() ? "" : ", " + std::string(interval.reason);
+  problems.add(node.location, node.path,
+               "is " + node.text + "; must be " + interval_text(interval, dimension) + reason);
   return NAN;
 }
 
@@ -138,22 +156,52 @@ Section::~Section()
   if (!node_) return;
   for (const YamlNode& child : node_->children)
     if (std::find(known_.begin(), known_.end(), child.key) == known_.end())
+    {
+      const std::string_view now = name_now(child.path);
       problems_.add(child.key_location, child.path,
-                    "unknown key '" + child.key + "'; allowed: " + either(known_) +
-                        suggestion(child.key, known_));
+                    now.empty() ? "unknown key '" + child.key + "'; allowed: " + either(known_) +
+                                      suggestion(child.key, known_)
+                                : "is now called " + std::string(now));
+    }
 }
 
-const YamlNode* Section::find(std::string_view key)
+const YamlNode* Section::look_up(std::string_view key)
 {
   if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.emplace_back(key);
   return node_ ? node_->child(key) : nullptr;
 }
 
-const YamlNode* Section::require(std::string_view key)
+void Section::describe(const Key& key, const std::string& form, const std::string& otherwise) const
 {
-  const YamlNode* child = find(key);
+  if (!problems_.keys || !named_) return;
+  problems_.keys->push_back(
+      {without_indices(path_of(key.name)), key.form.empty() ? form : std::string(key.form),
+       key.otherwise.empty() ? otherwise : std::string(key.otherwise), std::string(key.meaning)});
+}
+
+const YamlNode* Section::find(const Key& key)
+{
+  describe(key, "");
+  return look_up(key.name);
+}
+
+const YamlNode* Section::require(const Key& key)
+{
+  describe(key, "");
+  return look_up_required(key.name);
+}
+
+const YamlNode* Section::look_up_required(std::string_view key)
+{
+  const YamlNode* child = look_up(key);
   if (node_ && !child) error(key, "is missing; it has no default");
   return child;
+}
+
+void Section::accept_all()
+{
+  if (!node_) return;
+  for (const YamlNode& child : node_->children) look_up(child.key);
 }
 
 void Section::error(std::string_view key, const std::string& what) const
@@ -175,64 +223,72 @@ void Section::resolve(std::string_view key, const std::string& value) const
   if (named_) problems_.settings.set(path_of(key), value);
 }
 
-double Section::number(std::string_view key, Dimension dimension, const Range& range)
+double Section::number(const Key& key, Dimension dimension, const Interval& interval)
 {
-  const YamlNode* child = require(key);
-  return child ? read_number(*child, dimension, range, problems_) : NAN;
+  describe(key, form_of(dimension, interval));
+  const YamlNode* child = look_up_required(key.name);
+  return child ? read_number(*child, dimension, interval, problems_) : NAN;
 }
 
-double Section::number_or(double fallback, std::string_view key, Dimension dimension, const Range& range)
+double Section::number_or(double fallback, const Key& key, Dimension dimension, const Interval& interval)
 {
-  const YamlNode* child = find(key);
-  if (child) return read_number(*child, dimension, range, problems_);
+  describe(key, form_of(dimension, interval), usual_quantity_text(fallback, dimension));
+  const YamlNode* child = look_up(key.name);
+  if (child) return read_number(*child, dimension, interval, problems_);
   if (std::isfinite(fallback))
-    resolve(key, quantity_text(fallback, dimension)); // else there is no text for it
+    resolve(key.name, quantity_text(fallback, dimension)); // else there is no text for it
   return fallback;
 }
 
-int Section::integer_or(int fallback, std::string_view key, int least, int most)
+int Section::integer_or(int fallback, const Key& key, int least, int most)
 {
-  const YamlNode* child = find(key);
+  describe(key, "whole number from " + std::to_string(least) + " to " + std::to_string(most),
+           std::to_string(fallback));
+  const YamlNode* child = look_up(key.name);
   if (child) return read_integer(*child, least, most, problems_);
-  resolve(key, std::to_string(fallback));
+  resolve(key.name, std::to_string(fallback));
   return fallback;
 }
 
-std::string Section::text(std::string_view key)
+std::string Section::text(const Key& key)
 {
-  const YamlNode* child = require(key);
+  describe(key, "text");
+  const YamlNode* child = look_up_required(key.name);
   return child ? read_text(*child, problems_) : "";
 }
 
-std::string Section::text_or(std::string fallback, std::string_view key)
+std::string Section::text_or(std::string fallback, const Key& key)
 {
-  const YamlNode* child = find(key);
+  describe(key, "text", fallback);
+  const YamlNode* child = look_up(key.name);
   if (child) return read_text(*child, problems_);
-  resolve(key, fallback);
+  resolve(key.name, fallback);
   return fallback;
 }
 
-int Section::choice(std::string_view key, const std::vector<std::string>& names)
+int Section::choice(const Key& key, const std::vector<std::string>& names)
 {
-  const YamlNode* child = require(key);
+  describe(key, either(names));
+  const YamlNode* child = look_up_required(key.name);
   return child ? std::max(0, read_choice(*child, names, problems_)) : 0;
 }
 
-int Section::choice_or(int fallback, std::string_view key, const std::vector<std::string>& names)
+int Section::choice_or(int fallback, const Key& key, const std::vector<std::string>& names)
 {
-  const YamlNode* child = find(key);
+  describe(key, either(names), names.at(fallback));
+  const YamlNode* child = look_up(key.name);
   if (child) return std::max(0, read_choice(*child, names, problems_));
-  resolve(key, names.at(fallback));
+  resolve(key.name, names.at(fallback));
   return fallback;
 }
 
 Section Section::section(std::string_view key)
 {
-  return Section(require(key), problems_, path_of(key));
+  return Section(look_up_required(key), problems_, path_of(key));
 }
 
 Section Section::optional_section(std::string_view key)
 {
-  return Section(find(key), problems_, path_of(key));
+  return Section(look_up(key), problems_, path_of(key));
 }
 } // namespace mpm

@@ -2,36 +2,23 @@
 // Strict reading of a YAML tree: whatever is not asked for is an unknown key, whatever is wrong is noted in
 // `Problems` and answered with NaN, an empty text or a first choice, so that reading goes on.
 
+#include "io/case/key.hpp"
 #include "io/case/units.hpp"
 #include "io/case/yaml_tree.hpp"
 
-#include <functional>
-#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace mpm
 {
-/// Interval of possible values, in SI.
-struct Range
-{
-  double lower = -std::numeric_limits<double>::infinity();
-  bool lower_allowed = true;
-  double upper = std::numeric_limits<double>::infinity();
-  bool upper_allowed = true;
+/// "above 0 m and at most 2 m"
+std::string interval_text(const Interval& interval, Dimension dimension);
 
-  static Range positive() { return {.lower = 0, .lower_allowed = false}; }
-  static Range not_negative() { return {.lower = 0}; }
-  bool holds(double value) const;
-  /// "above 0 m and at most 2 m"
-  std::string text(Dimension dimension) const;
-};
-
-double read_number(const YamlNode& node, Dimension dimension, const Range& range, Problems& problems);
+double read_number(const YamlNode& node, Dimension dimension, const Interval& interval, Problems& problems);
 int read_integer(const YamlNode& node, int least, int most, Problems& problems);
 std::string read_text(const YamlNode& node, Problems& problems);
-/// Location of the value among `names`, -1 if it is none of them.
+/// Index of the value among `names`, -1 if it is none of them.
 int read_choice(const YamlNode& node, const std::vector<std::string>& names, Problems& problems);
 /// The elements of a list; `what` completes "is not a list: give ...".
 std::vector<const YamlNode*> read_list(const YamlNode& node, std::string_view what, Problems& problems);
@@ -54,20 +41,22 @@ public:
   ~Section();
 
   bool given() const { return node_ != nullptr; }
-  const YamlNode* find(std::string_view key);    ///< null: absent
-  const YamlNode* require(std::string_view key); ///< null: absent, and said so
+  const YamlNode* find(const Key& key);    ///< null: absent
+  const YamlNode* require(const Key& key); ///< null: absent, and said so
   void error(std::string_view key, const std::string& what) const;
   /// Notes the value that a key has after all, where it is not one of those that are read below.
   void resolve(std::string_view key, const std::string& value) const;
+  /// Takes every key that is given for a known one.
+  void accept_all();
 
-  double number(std::string_view key, Dimension dimension, const Range& range = {});
-  double number_or(double fallback, std::string_view key, Dimension dimension, const Range& range = {});
-  int integer_or(int fallback, std::string_view key, int least, int most);
-  std::string text(std::string_view key);
-  std::string text_or(std::string fallback, std::string_view key);
-  /// Location among `names`; 0 if wrong.
-  int choice(std::string_view key, const std::vector<std::string>& names);
-  int choice_or(int fallback, std::string_view key, const std::vector<std::string>& names);
+  double number(const Key& key, Dimension dimension, const Interval& interval = {});
+  double number_or(double fallback, const Key& key, Dimension dimension, const Interval& interval = {});
+  int integer_or(int fallback, const Key& key, int least, int most);
+  std::string text(const Key& key);
+  std::string text_or(std::string fallback, const Key& key);
+  /// Index among `names`; 0 if wrong.
+  int choice(const Key& key, const std::vector<std::string>& names);
+  int choice_or(int fallback, const Key& key, const std::vector<std::string>& names);
   Section section(std::string_view key); ///< absent: said so
   Section optional_section(std::string_view key);
 
@@ -79,5 +68,10 @@ private:
   std::string path_;
   bool named_; ///< whether the path is known
   std::vector<std::string> known_;
+
+  const YamlNode* look_up(std::string_view key);
+  const YamlNode* look_up_required(std::string_view key); ///< says so if it is absent
+  /// For --keys; the key's own words go before these. No `otherwise`: it is required.
+  void describe(const Key& key, const std::string& form, const std::string& otherwise = {}) const;
 };
 } // namespace mpm

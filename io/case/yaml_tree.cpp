@@ -1,14 +1,11 @@
 #include "io/case/yaml_tree.hpp"
 
-#include "io/common/error.hpp"
+#include "io/common/suggestion.hpp"
 
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
 #include <charconv>
-#include <limits>
-#include <numeric>
-#include <tuple>
 #include <utility>
 
 namespace mpm
@@ -169,56 +166,7 @@ bool is_map(const YamlNode& node, const std::string& wanted, Problems& problems)
   return false;
 }
 
-/// Letters to change, add, leave out or exchange with their neighbour.
-int edit_distance(std::string_view a, std::string_view b)
-{
-  std::vector<int> before, last, row(b.size() + 1);
-  std::iota(row.begin(), row.end(), 0);
-  for (std::size_t i = 1; i <= a.size(); ++i)
-  {
-    before = std::exchange(last, row);
-    row[0] = static_cast<int>(i);
-    for (std::size_t j = 1; j <= b.size(); ++j)
-    {
-      row[j] = std::min({last[j - 1] + (a[i - 1] != b[j - 1]), row[j - 1] + 1, last[j] + 1});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
-        row[j] = std::min(row[j], before[j - 2] + 1);
-    }
-  }
-  return row.back();
-}
 } // namespace
-
-std::string Location::text() const
-{
-  if (line == 0) return source;
-  return source + ":" + std::to_string(line) + ":" + std::to_string(column);
-}
-
-void Problems::add(const Location& location, const std::string& path, const std::string& what)
-{
-  add_missing(location, path, what);
-  only_missing_ = false;
-}
-
-void Problems::add_missing(const Location& location, const std::string& path, const std::string& what)
-{
-  entries_.push_back({location, location.text() + ": " + (path.empty() ? "" : path + ": ") + what});
-}
-
-void Problems::throw_if_any() const
-{
-  if (entries_.empty()) return;
-  std::vector<Entry> sorted = entries_;
-  std::stable_sort(sorted.begin(), sorted.end(),
-                   [](const Entry& a, const Entry& b) {
-                     return std::tie(a.location.line, a.location.column) <
-                            std::tie(b.location.line, b.location.column);
-                   });
-  std::string all;
-  for (const Entry& entry : sorted) all += (all.empty() ? "" : "\n") + entry.message;
-  throw Error(only_missing_ ? exit_code::input_missing : exit_code::bad_input, all);
-}
 
 const YamlNode* YamlNode::child(std::string_view wanted) const
 {
@@ -315,25 +263,4 @@ std::vector<std::pair<std::string, std::string>> flattened(const YamlNode& root)
   return all;
 }
 
-std::string nearest(std::string_view wrong, const std::vector<std::string>& names)
-{
-  std::string best;
-  int least = std::numeric_limits<int>::max();
-  for (const std::string& name : names)
-  {
-    const bool part = wrong.size() > 2 && (name.starts_with(wrong) || wrong.starts_with(name));
-    const int distance = part ? 1 : edit_distance(wrong, name);
-    const int most = std::max(1, static_cast<int>(std::max(wrong.size(), name.size())) / 3);
-    if (distance > most || distance >= least) continue;
-    least = distance;
-    best = name;
-  }
-  return best;
-}
-
-std::string suggestion(std::string_view wrong, const std::vector<std::string>& names)
-{
-  const std::string best = nearest(wrong, names);
-  return best.empty() ? "" : "; did you mean '" + best + "'?";
-}
 } // namespace mpm

@@ -1,12 +1,14 @@
 #include "solver/stages/command_line.hpp"
 
+#include "io/case/key_table.hpp"
 #include "io/case/units.hpp"
-#include "io/case/yaml_tree.hpp"
 #include "io/common/error.hpp"
+#include "io/common/suggestion.hpp"
 
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <iostream>
 
 namespace mpm
 {
@@ -17,7 +19,7 @@ constexpr int most_threads = 4096;
 /// What is read once it is known which options were given: numbers and times as they were typed.
 struct Typed
 {
-  std::string scale, record_dt, threads, max_wall;
+  std::string scale, record_dt, threads, max_wall, keys;
   bool quiet = false, verbose = false;
 };
 
@@ -83,6 +85,10 @@ void add_common_options(CLI::App& app, Options& options, Typed& typed)
   app.add_flag("--check", options.check, "validate and predict the cost, on stdout; run nothing");
   app.add_flag("--print-case", options.print_case,
                "print the case with every default written out, on stdout; run nothing");
+  app.add_option("--keys", typed.keys,
+                 "print the keys of the case file, those below PATH if given, on stdout")
+      ->type_name("[PATH]")
+      ->expected(0, 1);
   app.add_option("--threads", typed.threads, "threads (default: OMP_NUM_THREADS, else all)")->type_name("N");
   app.add_option("--profile", options.profile, "apply one of the case's profiles; --set goes on top")
       ->type_name("NAME");
@@ -190,6 +196,13 @@ void check_pairs(const CLI::App& app, const Typed& typed, const Options& options
                        name.substr(std::string("--record-").size()));
 }
 
+/// Answers --keys: the keys at and below a path, all for an empty one.
+void print_keys(const std::string& path)
+{
+  std::cout << text_of(case_keys(path));
+  if (path.empty()) std::cout << "\nUnits:\n" << units_text();
+}
+
 void read_values(const CLI::App& app, const Typed& typed, Options& options)
 {
   const auto given = [](const std::string& text) { return !text.empty(); };
@@ -236,6 +249,11 @@ try
     throw Error(exit_code::usage, std::string(error.what()) + "; see --help");
   }
   refuse_leftovers(app, seismic);
+  if (app.count("--keys"))
+  {
+    print_keys(typed.keys);
+    return exit_code::done;
+  }
   refuse_no_values(app);
   if (!app.count("CASE")) refuse("CASE", "is missing: give a case file; see --help");
   read_values(app, typed, options);

@@ -192,8 +192,10 @@ TEST_CASE("An unknown profile is refused with the known ones", "[io]")
 TEST_CASE("A time step beyond the stable one is refused with the reason", "[io]")
 {
   CHECK_THAT(refusal(small + "time_step: {courant_number: 0.8}\n"),
-             Contains("case.yaml:14:29: time_step.courant_number: is above 0.78"));
-  CHECK_THAT(refusal(small + "time_step: {courant_number: 0}\n"), Contains("must be above 0 and at most 1"));
+             Contains("case.yaml:14:29: time_step.courant_number: is 0.8; must be above 0 and at most 0.78, "
+                      "where loose particles at the surface become unstable"));
+  CHECK_THAT(refusal(small + "time_step: {courant_number: 0}\n"),
+             Contains("must be above 0 and at most 0.78"));
 }
 
 TEST_CASE("A missing case or profile has its own exit code", "[io]")

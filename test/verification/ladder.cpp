@@ -25,7 +25,7 @@ std::vector<double> read_numbers(const YamlNode* node, Problems& problems)
 void read_bounds(Section& section, const std::string& suffix, const Ladder& ladder, Measure& measure,
                  Problems& problems)
 {
-  const Bound every{section.number_or(0, "bound" + suffix, Dimension::none, Range::positive()),
+  const Bound every{section.number_or(0, "bound" + suffix, Dimension::none, Interval::positive()),
                     !suffix.empty()};
   if (every.value > 0)
     for (const auto* list : {&ladder.quick, &ladder.full})
@@ -33,7 +33,7 @@ void read_bounds(Section& section, const std::string& suffix, const Ladder& ladd
   if (const YamlNode* node = section.find("bounds" + suffix))
     for (const YamlNode& child : node->children)
       measure.bounds[std::stod(child.key)] = {
-          read_number(child, Dimension::none, Range::positive(), problems), !suffix.empty()};
+          read_number(child, Dimension::none, Interval::positive(), problems), !suffix.empty()};
   const double order = section.number_or(NAN, "order" + suffix, Dimension::none);
   if (!std::isnan(order)) measure.order = {order, !suffix.empty()};
 }

@@ -1,0 +1,40 @@
+#include "io/case/problems.hpp"
+
+#include "io/common/error.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+namespace mpm
+{
+std::string Location::text() const
+{
+  if (line == 0) return source;
+  return source + ":" + std::to_string(line) + ":" + std::to_string(column);
+}
+
+void Problems::add(const Location& location, const std::string& path, const std::string& what)
+{
+  add_missing(location, path, what);
+  only_missing_ = false;
+}
+
+void Problems::add_missing(const Location& location, const std::string& path, const std::string& what)
+{
+  entries_.push_back({location, location.text() + ": " + (path.empty() ? "" : path + ": ") + what});
+}
+
+void Problems::throw_if_any() const
+{
+  if (entries_.empty()) return;
+  std::vector<Entry> sorted = entries_;
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const Entry& a, const Entry& b) {
+                     return std::tie(a.location.line, a.location.column) <
+                            std::tie(b.location.line, b.location.column);
+                   });
+  std::string all;
+  for (const Entry& entry : sorted) all += (all.empty() ? "" : "\n") + entry.message;
+  throw Error(only_missing_ ? exit_code::input_missing : exit_code::bad_input, all);
+}
+} // namespace mpm
