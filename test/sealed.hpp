@@ -2,7 +2,7 @@
 // Result files that are well-formed and yet wrong: changed by hand, their seal made to fit again.
 
 #include "io/common/digest.hpp"
-#include "io/common/files.hpp"
+#include "io/results/files.hpp"
 #include "test/temporary_folder.hpp"
 
 namespace mpm::test

@@ -1,7 +1,7 @@
 #pragma once
 // Result frames: one small file each, which ParaView draws and h5py reads under plain names.
 
-#include "io/common/files.hpp"
+#include "io/results/files.hpp"
 
 #include <cstdint>
 #include <filesystem>

@@ -2,7 +2,7 @@
 // Time series of a run: gauges, free field, energies, slide. Held in memory and written whole, so that
 // rows cannot be torn; kept in the checkpoint, so that a resumed run goes on without a gap or a double.
 
-#include "io/common/files.hpp"
+#include "io/results/files.hpp"
 
 #include <cstddef>
 #include <filesystem>

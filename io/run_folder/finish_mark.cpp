@@ -1,6 +1,6 @@
 #include "io/run_folder/finish_mark.hpp"
 
-#include "io/common/files.hpp"
+#include "io/results/files.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

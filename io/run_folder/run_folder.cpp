@@ -1,5 +1,5 @@
 #include "io/run_folder/run_folder.hpp"
-#include "io/common/files.hpp"
+#include "io/results/files.hpp"
 #include "io/run_folder/finish_mark.hpp"
 
 #include <fmt/format.h>

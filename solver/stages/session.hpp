@@ -1,7 +1,7 @@
 #pragma once
 
 #include "io/case/case.hpp"
-#include "io/common/files.hpp"
+#include "io/results/files.hpp"
 #include "io/run_folder/log.hpp"
 #include "io/run_folder/run_folder.hpp"
 #include "solver/stages/command_line.hpp"

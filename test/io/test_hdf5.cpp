@@ -1,4 +1,4 @@
-#include "io/common/files.hpp"
+#include "io/results/files.hpp"
 #include "test/sealed.hpp"
 
 #include <catch2/catch.hpp>

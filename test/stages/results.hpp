@@ -1,7 +1,7 @@
 #pragma once
 // Comparing the results of runs, bit for bit.
 
-#include "io/common/files.hpp"
+#include "io/results/files.hpp"
 #include "test/temporary_folder.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-#include "io/common/files.hpp"
+#include "io/results/files.hpp"
 
 #include "io/common/descriptor.hpp"
 #include "io/common/digest.hpp"
