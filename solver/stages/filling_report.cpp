@@ -17,7 +17,7 @@ std::string name_of(const Case& case_file, std::size_t region)
   const Region& r = case_file.regions[region];
   const std::string& material = case_file.materials[r.material].name;
   return r.location.empty() ? fmt::format("regions[{}] ({})", region, material)
-                         : fmt::format("{} ({})", r.location, material);
+                            : fmt::format("{} ({})", r.location, material);
 }
 
 /// Cell size with which a layer has a particle, rounded down to two digits.
