@@ -1,9 +1,7 @@
-// Formats of public archives, in made files and, where they are at hand, real ones.
+// Formats of public archives, in texts made for the tests.
 
 #include "test/io/record_samples.hpp"
 #include "test/io/record_texts.hpp"
-
-#include <filesystem>
 
 using namespace mpm;
 using namespace mpm::test;
@@ -123,41 +121,6 @@ TEST_CASE("a format that the case names wrongly is refused with the right one", 
       CHECK_THAT(refusal(sample.text, sample.source), Contains("; use format: " + sample.name));
     }
   CHECK_THAT(refusal("1\n2\n", {"r.txt", "knet", 0.01, "g", {}}), Contains("is not of the format knet"));
-}
-
-TEST_CASE("real files of archives have the peaks that their headers state", "[io]")
-{
-  struct Known
-  {
-    std::string file, component, name;
-    std::size_t count;
-    double dt, pga; ///< m/s2
-  };
-  const std::vector<Known> table{
-      {"0111a.smc", "", "360", 6001, .005, 1.0441},
-      {"2-ECU.dat", "N", "N", 6000, .02, .02931},
-      {"20180212_211557_WPWS_20.V2A", "S74E", "S74E", 5800, .02, .1940},
-      {"AOM0011801241951.EW", "", "E-W", 10200, .01, .04078},
-      {"AICH040010061330.EW2", "", "E-W", 28600, .005, .03896},
-      {"Cosmos12TimeSeriesTest.v1", "", "1: 340 deg", 7000, .01, 1.61962},
-  };
-  const std::string folder = SOURCE_DIR "/../shared/motions/formats/";
-  for (const Known& known : table)
-  {
-    if (!std::filesystem::exists(folder + known.file))
-    {
-      WARN("skipped: " << known.file << " is not in ../shared/motions/formats");
-      continue;
-    }
-    INFO(known.file);
-    const Record record = read_record({.file = folder + known.file, .component = known.component});
-    CHECK(record.component == known.name);
-    CHECK(record.values.size() == known.count);
-    CHECK(record.dt == Approx(known.dt).epsilon(1e-15));
-    double peak = 0;
-    for (double value : record.values) peak = std::max(peak, std::abs(value));
-    CHECK(peak == Approx(known.pga).margin(6e-6)); // half of the last digit of CWB's and K-NET's headers
-  }
 }
 
 TEST_CASE("formats that are not read are refused by their name", "[io]")

@@ -2,8 +2,6 @@
 
 #include "test/io/record_texts.hpp"
 
-#include <filesystem>
-
 using namespace mpm;
 using namespace mpm::test;
 using Values = std::vector<double>;
@@ -18,14 +16,6 @@ RecordSource source_of(std::string file = "record.AT2")
 RecordSource column_of(double dt = 0.005, std::string unit = "g")
 {
   return {"record.txt", "column", dt, std::move(unit), {}};
-}
-
-const std::string recordings = SOURCE_DIR "/../shared/motions/";
-bool skipped(const std::string& file)
-{
-  if (std::filesystem::exists(recordings + file)) return false;
-  WARN("skipped: " << file << " is not in ../shared/motions");
-  return true;
 }
 } // namespace
 
@@ -207,44 +197,4 @@ TEST_CASE("the synthetic motion is at rest at its end, with the peak and duratio
   // 4000 values of 7 digits after the first: each off by at most 5e-8 of up to 0.25 g
   CHECK(std::abs(report.recorded.final_velocity) < 1e-6);
   CHECK(std::abs(report.recorded.final_displacement) < 1e-5);
-}
-
-TEST_CASE("real recordings have the peaks, times and durations they are known for", "[io]")
-{
-  struct Known
-  {
-    std::string file;
-    double dt;
-    bool dt_in_file;
-    std::size_t count;
-    double pga, pga_time, pgv, pgv_rounding; // g, s, m/s
-  };
-  const std::vector<Known> table{
-      {"LomaPrieta1989_G06-090.txt", .005, false, 7758, .170, 4.63, .142, 5e-4},
-      {"ImperialValley1979_CHI-282.txt", .01, false, 3879, .254, 11.94, .298, 5e-4},
-      {"RSN1231_CHICHI_CHY080-E.AT2", .005, true, 18000, .809, 38.0, 1.07, 5e-3},
-      {"RSN1231_CHICHI_CHY080-N.AT2", .005, true, 18000, .860, 38.0, .93, 5e-3},
-      {"RSN1231_CHICHI_CHY080-V.AT2", .005, true, 18000, .730, 38.0, .41, 5e-3},
-      {"ElCentro1940.AT2", .02, true, 1559, .319, NAN, .36, 5e-3},
-  };
-  for (const Known& known : table)
-  {
-    if (skipped(known.file)) continue;
-    INFO(known.file);
-    const auto record = read_record({recordings + known.file, "auto", known.dt_in_file ? NAN : known.dt,
-                                     known.dt_in_file ? "" : "g", Quantity::acceleration});
-    CHECK(record.dt == known.dt);
-    CHECK(record.values.size() == known.count);
-    MotionProcessing raw;
-    raw.baseline = Baseline::none;
-    const auto report = make_ground_motion(record, raw).report;
-    CHECK(report.corrected.pga / standard_gravity ==
-          Approx(known.pga).margin(5e-4)); // the table's last digit
-    if (!std::isnan(known.pga_time)) CHECK(report.corrected.pga_time == Approx(known.pga_time).margin(0.1));
-    CHECK(report.corrected.pgv == Approx(known.pgv).margin(known.pgv_rounding));
-    const auto processed = make_ground_motion(record, {});
-    CHECK(processed.velocity.back() == 0);
-    CHECK(processed.report.warnings.empty());
-    UNSCOPED_INFO(known.file);
-  }
 }
