@@ -99,8 +99,8 @@ def draw_input(axes, motion, components, record):
             axis.plot(time, values, lw=0.8, color=f"C{component}", label=DIRECTIONS[component])
         notes.append(f"{'xy'[component]}: {measures(factor * a, factor * v, dt)}")
     axes[0].set_title(f"upgoing motion as applied; as {kind} it has\n" + "\n".join(notes), fontsize=8)
-    for axis, label in zip(axes, ("acceleration (m/s²)", "velocity (m/s)", "displacement (m)")):
-        axis.set_ylabel(label)
+    for axis, what in zip(axes, ("acceleration (m/s²)", "velocity (m/s)", "displacement (m)")):
+        axis.set_ylabel(what)
         axis.grid(alpha=0.3)
     axes[-1].set_xlabel("time (s)")
     axes[1].legend(fontsize=8)
