@@ -83,6 +83,7 @@ def tapered(x, length):
 
 
 def integral(x):
+    """Running integral over time by trapezoids, 0 at first."""
     out = [0.0]
     for left, right in zip(x, x[1:]):
         out.append(out[-1] + 0.5 * DT * (left + right))
@@ -90,7 +91,7 @@ def integral(x):
 
 
 def at_rest(a):
-    """a less the two smooth pulses that carry its final velocity and displacement."""
+    """a less two smooth pulses, so that velocity and displacement end at 0."""
     total = (COUNT - 1) * DT
     pulses = []
     for n in (1, 2):
@@ -104,6 +105,7 @@ def at_rest(a):
 
 
 def peak(x):
+    """Greatest magnitude."""
     return max(abs(value) for value in x)
 
 
@@ -114,6 +116,7 @@ def motion(seed, pga):
 
 
 def at2(values, seed):
+    """Text of a PEER file (.AT2) of the accelerations (g)."""
     lines = [
         "SYNTHETIC MOTION, NOT A RECORDING: SCRIPTS/MAKE_MOTION.PY, SEED %d" % seed,
         "OUTCROP, STOCHASTIC METHOD, OMEGA-SQUARED SOURCE WITH CORNER %.2f HZ, KAPPA %.3f S" % (CORNER, KAPPA),
@@ -135,6 +138,7 @@ def measures(a):
 
 
 def main():
+    """Makes the motion, writes it and prints its measures."""
     root = pathlib.Path(__file__).resolve().parent.parent
     parser = Parser(prog="make_motion", description=__doc__.splitlines()[0])
     parser.add_argument("--out", type=pathlib.Path, default=root / "cases" / "motions" / "synthetic.AT2")

@@ -1,4 +1,5 @@
-# What scripts/run and scripts/verify share: refusing an option that there is not. To be sourced.
+# shellcheck shell=bash
+# What scripts/run, scripts/verify and scripts/bench share: refusing an unknown option. To be sourced.
 
 # The word most like $1 of those that follow, if one is like it: letters changed, added, left out or exchanged
 # with their neighbour, up to a third of them.

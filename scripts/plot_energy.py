@@ -1,4 +1,4 @@
-"""The energy ledger of a run: what was brought, over what became of it; and what is left of the sum."""
+"""The energy balance of a run: what came in, over what became of it; and the residual, which should be nothing."""
 import h5py
 import matplotlib.pyplot as plt
 import numpy as np
@@ -9,14 +9,14 @@ BECOME = ("kinetic", "elastic", "plastic", "radiated_base", "radiated_sides", "d
           "transfer")
 
 
-def read_ledger(file):
+def read_energy_balance(file):
     """Times (s), the terms (kJ/m) by name, and the label of their unit."""
     group = group_of(file, "energy")
     time = array(group, "time")
     terms = {name: data[...] / 1e3 for name, data in group.items()
              if isinstance(data, h5py.Dataset) and name != "time" and data.shape == time.shape}
     if not len(time) or "residual" not in terms:
-        raise Missing("/energy of history.h5 holds no ledger")
+        raise Missing("/energy of history.h5 holds no energy balance")
     unit = text(group["residual"].attrs.get("units", "J/m"))
     return time, terms, f"k{unit}"
 
@@ -44,7 +44,7 @@ def stacked(axis, time, terms, colours):
 def energy(folder, out, heading):
     """energy.png: what came in as a line over what became of it as areas, and the residual."""
     with open_history(folder) as file:
-        time, terms, unit = read_ledger(file)
+        time, terms, unit = read_energy_balance(file)
     brought = sources(terms)
     become = {name: terms[name] for name in BECOME if name in terms and np.any(terms[name])}
     figure, (top, middle, bottom) = plt.subplots(3, 1, figsize=(WIDTH, 9.5), sharex=True, height_ratios=(2.4, 1.4, 0.9),

@@ -75,12 +75,12 @@ def image(particles, values):
 
 def draw_panel(axis, particles, panel, extent):
     """One section, its grey part below the coloured one."""
-    place = {"extent": extent, "origin": "lower", "aspect": "equal", "interpolation": "nearest"}
+    where = {"extent": extent, "origin": "lower", "aspect": "equal", "interpolation": "nearest"}
     values, grey = panel["values"], panel.get("grey")
     if grey is not None:
-        axis.imshow(image(particles, np.where(grey, 1.0, np.nan)), cmap="Greys", vmin=0.0, vmax=4.0, **place)
+        axis.imshow(image(particles, np.where(grey, 1.0, np.nan)), cmap="Greys", vmin=0.0, vmax=4.0, **where)
         values = np.where(grey, np.nan, values)
-    axis.imshow(image(particles, values), cmap=panel["colours"], norm=panel["norm"], **place)
+    axis.imshow(image(particles, values), cmap=panel["colours"], norm=panel["norm"], **where)
     axis.set_title(panel["title"], fontsize=10)
     axis.set_ylabel("y (m)")
 

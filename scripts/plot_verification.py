@@ -23,6 +23,7 @@ def panels_of(case):
 
 
 def draw_curves(axis, group):
+    """One curve at every resolution (coarse is light, fine dark) over its reference."""
     finest = group[-1]
     axis.plot(finest["x"], finest["reference"], color="black", lw=2.4, alpha=0.35, label="reference")
     shades = plt.cm.viridis([0.85 * k / max(len(group) - 1, 1) for k in range(len(group))][::-1])
@@ -34,6 +35,7 @@ def draw_curves(axis, group):
 
 
 def draw_errors(axis, rows, resolution):
+    """Errors of all measures over the resolution, and their bounds, on logarithmic axes."""
     for measure in dict.fromkeys(row["measure"] for row in rows):
         mine = [row for row in rows if row["measure"] == measure]
         line, = axis.loglog([row["resolution"] for row in mine], [max(row["error"], 1e-17) for row in mine], "o-",
@@ -71,6 +73,7 @@ def page(cases):
 
 
 def main():
+    """Reads the results and writes the page; returns the exit code."""
     if len(sys.argv) != 2:
         print("usage: plot_verification.py DIR", file=sys.stderr)
         return 64

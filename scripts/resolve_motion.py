@@ -19,7 +19,7 @@ from options import Parser
 
 
 class BadRecord(Exception):
-    pass
+    """Says what is wrong with a record; the program ends with 65."""
 
 
 def read(path):
@@ -63,6 +63,7 @@ def cut(values, step, begin, end):
 
 
 def write(path, header, values, step):
+    """Writes a PEER file of the header's lines and the values, every `step` (s); whole or not at all."""
     temporary = path + ".part"
     with open(temporary, "w", encoding="ascii") as file:
         file.write("\n".join(header) + f"\nNPTS= {values.size:6d}, DT= {step:.9g} SEC\n")
@@ -72,6 +73,7 @@ def write(path, header, values, step):
 
 
 def arguments():
+    """The command line."""
     parser = Parser(prog="resolve-motion", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("east", metavar="EAST", help="or the only component")
     parser.add_argument("north", metavar="NORTH", nargs="?")
@@ -105,6 +107,7 @@ def make(options):
 
 
 def main():
+    """Makes and writes the record, prints its peak; returns the exit code."""
     options = arguments()
     try:
         header, values, step = make(options)

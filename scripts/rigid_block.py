@@ -60,6 +60,7 @@ class Block:
 def rk4(block, slip, speed, length, ground):
     """Slip and speed after a step of length (s); the ground's acceleration goes linearly from ground[0] to ground[1]."""
     def rates(d, v, share):
+        """Time derivatives of slip and speed at a share of the step."""
         return v, block.acceleration(d, ground[0] + share * (ground[1] - ground[0]))
 
     v1, a1 = rates(slip, speed, 0.0)

@@ -26,6 +26,7 @@ class Ground:
     gravity: float = STANDARD_GRAVITY  # m/s2
 
     def __post_init__(self):
+        """Sums mass and its first moment up every column, so that a circle's slices are two look-ups each."""
         heights = self.bottom + self.size * np.arange(self.density.shape[1] + 1)
         zero = np.zeros((len(self.x), 1))
         weight = self.density * self.size**2

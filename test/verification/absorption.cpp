@@ -169,7 +169,7 @@ double table_error(const std::map<std::string, std::vector<double>>& table, Wave
 Findings absorb(const std::filesystem::path& folder, double spacing, const std::vector<double>& angles)
 {
   const auto table = read_table(folder / "reference.csv");
-  const Elastic law = scene_at(folder, spacing).materials[0].elastic();
+  const Elastic law = case_at(folder, spacing).materials[0].elastic();
   Findings findings;
   findings.errors["table"] = 0;
   for (const auto& [kind, inertia] : {std::pair{WaveKind::P, "lumped"},

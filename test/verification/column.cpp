@@ -7,7 +7,7 @@
 
 namespace mpm::verification
 {
-Case scene_at(const std::filesystem::path& folder, double spacing)
+Case case_at(const std::filesystem::path& folder, double spacing)
 {
   return load_case(folder / "case.yaml", {"grid.spacing=" + number_text(spacing) + " m"});
 }

@@ -9,7 +9,7 @@
 namespace mpm::verification
 {
 /// case.yaml of the folder with grid.spacing at `spacing` m.
-Case scene_at(const std::filesystem::path& folder, double spacing);
+Case case_at(const std::filesystem::path& folder, double spacing);
 
 /// The wave that the case's seismic.motion names, as the program would make it.
 std::shared_ptr<IncomingWave> wave_of(const Case& case_file);

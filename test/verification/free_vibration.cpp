@@ -70,7 +70,7 @@ double damping_ratio(const std::vector<double>& samples, const std::vector<doubl
 
 Findings run_free_vibration(const std::filesystem::path& folder, double spacing)
 {
-  const Case case_file = scene_at(folder, spacing);
+  const Case case_file = case_at(folder, spacing);
   const double H = case_file.ground_height(0),
                period = read_table(folder / "reference.csv").at("period").at(0);
   Model model = make_model(case_file);

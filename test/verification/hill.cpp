@@ -105,7 +105,7 @@ Findings compare(const Case& case_file, const std::filesystem::path& folder)
 
 Findings run_hill(const std::filesystem::path& folder, double spacing)
 {
-  return compare(scene_at(folder, spacing), folder);
+  return compare(case_at(folder, spacing), folder);
 }
 
 Findings run_hill_options(const std::filesystem::path& folder, double spacing)

@@ -43,7 +43,7 @@ Findings amplify(const Case& case_file, const std::filesystem::path& folder)
 
 Findings run_site(const std::filesystem::path& folder, double spacing)
 {
-  return amplify(scene_at(folder, spacing), folder);
+  return amplify(case_at(folder, spacing), folder);
 }
 
 Findings run_layer_consistent(const std::filesystem::path& folder, double spacing)

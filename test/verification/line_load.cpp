@@ -90,7 +90,7 @@ std::vector<History> load_surface(const Case& case_file, const std::vector<Gauge
 Findings run_line_load(const std::filesystem::path& folder, double spacing)
 {
   const auto table = read_table(folder / "reference.csv");
-  const Case small = scene_at(folder, spacing);
+  const Case small = case_at(folder, spacing);
   const Case large = load_case(folder / "case.yaml", {"grid.spacing=" + number_text(spacing) + " m",
                                                       "domain.x=[-80 m, 80 m]", "domain.bottom=-80 m"});
   const auto& gauges = small.output.gauges.points;

@@ -31,7 +31,7 @@ double interpolate(const std::vector<double>& x, const std::vector<double>& y, d
 
 Findings run_self_weight(const std::filesystem::path& folder, double spacing)
 {
-  const Case case_file = scene_at(folder, spacing);
+  const Case case_file = case_at(folder, spacing);
   const auto reference = read_table(folder / "reference.csv");
   const std::vector<double>&height = reference.at("height"), &stress = reference.at("stress_yy"),
         &settlement = reference.at("settlement");

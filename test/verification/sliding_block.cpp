@@ -42,7 +42,7 @@ double trigger(const std::vector<double>& time, const std::vector<double>& slip)
 Findings run_sliding_block(const std::filesystem::path& folder, double spacing)
 {
   const auto table = read_table(folder / "reference.csv");
-  const Case case_file = scene_at(folder, spacing);
+  const Case case_file = case_at(folder, spacing);
   Model model = make_model(case_file);
   add_static_boundaries(model, case_file);
   FreeFieldColumn& column = *model.left;
