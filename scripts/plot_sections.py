@@ -4,6 +4,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
+from scipy.ndimage import distance_transform_edt
 from scipy.spatial import cKDTree
 
 from plot_common import WIDTH, Missing, array, frame_times, save
@@ -57,15 +58,23 @@ def common_extent(sections):
 
 
 def add_pixels(particles, extent):
-    """Stores for every pixel its nearest particle, -1 where that is farther away than the particle's size."""
+    """Stores for every pixel its nearest particle, -1 where there is no ground.
+
+    Ground reaches from a particle as far as its size. Where slip has stretched a band, its particles lie farther apart
+    along it; gaps of up to two particles, about a cell, are closed.
+    """
     left, right, low, high = extent
-    rows = max(1, round(PIXELS * (high - low) / (right - left)))
-    x = left + (np.arange(PIXELS) + 0.5) * (right - left) / PIXELS
+    pixel = (right - left) / PIXELS
+    rows = max(1, round((high - low) / pixel))
+    x = left + (np.arange(PIXELS) + 0.5) * pixel
     y = low + (np.arange(rows) + 0.5) * (high - low) / rows
     size = np.append(particles["size"], 0.0)  # the last is that of no particle within reach
     distance, nearest = cKDTree(particles["position"]).query(np.stack(np.meshgrid(x, y), axis=-1), workers=-1,
-                                                             distance_upper_bound=size.max())
-    particles["pixels"] = np.where(distance <= size[nearest], nearest, -1)
+                                                             distance_upper_bound=2.0 * size.max())
+    reach = np.median(size[:-1]) / pixel
+    widened = distance_transform_edt(distance > size[nearest]) <= reach
+    ground = distance_transform_edt(widened) > reach
+    particles["pixels"] = np.where(ground & (nearest < len(size) - 1), nearest, -1)
 
 
 def image(particles, values):
