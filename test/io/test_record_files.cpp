@@ -1,6 +1,6 @@
 // Records as files: one for every layout that is read, and some that are refused. All were made for these
-// tests, of a wave packet of 80 cm/s2 (the archives' layouts) or 0.2 g (the others), 400 values at 0.01 s
-// unless stated.
+// tests: wave packets of 400 values at 0.01 s, of 80 cm/s2 in the archives' layouts, of 0.1 g in shake.acc
+// and of 0.2 g in the others.
 
 #include "test/io/record_samples.hpp"
 #include "test/io/record_texts.hpp"
