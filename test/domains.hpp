@@ -1,5 +1,12 @@
 #pragma once
 // Small bodies for the tests of the solver: lattices of particles, random states, and measures of them.
+//
+// A test makes a body, gives it a motion, steps it and measures:
+//
+//   Domain block = make_domain({{elastic(), {0, 0, 8, 8}}}); // 8 m by 8 m, 2 x 2 particles in cells of 1 m
+//   random_velocities(block, 1, 7);                          // up to 1 m/s, from the seed 7
+//   run(block, 100, 1e-3);                                   // 100 steps of 1 ms
+//   CHECK(kinetic_energy(block) + strain_energy(block) < ...);
 
 #include "solver/mpm/domain.hpp"
 #include "solver/mpm/parallel.hpp"
@@ -27,7 +34,8 @@ private:
   int before_ = parallel::threads();
 };
 
-/// Reproducible random numbers.
+/// Random numbers that are the same on every machine: the standard's engine, and no distribution of the
+/// library's.
 class Random
 {
 public:
@@ -43,17 +51,18 @@ private:
 
 struct Rectangle
 {
-  double left, bottom, width, height;
+  double left, bottom, width, height; ///< m
 };
 
 /// A rectangle of one material, filled with a square lattice of particles.
 struct Body
 {
   Law law;
-  Rectangle place;
+  Rectangle rectangle;
   double size = 0.5; ///< distance of the particles, m
 };
 
+/// Pa, -, kg/m3.
 inline Elastic elastic(double young = 1e6, double poisson = 0.3, double density = 2000)
 {
   Elastic law;
@@ -63,6 +72,7 @@ inline Elastic elastic(double young = 1e6, double poisson = 0.3, double density 
   return law;
 }
 
+/// Strengths are Mises stresses q in Pa; `strain` is the plastic strain at which the residual one is reached.
 inline VonMises von_mises(double peak, double residual, double strain, double young = 1e6,
                           double poisson = 0.3)
 {
@@ -121,14 +131,14 @@ inline Domain make_domain(const std::vector<Body>& bodies, double spacing = 1, d
   for (const Body& body : bodies)
   {
     materials.push_back({"m" + std::to_string(materials.size()), body.law, {}});
-    const int columns = static_cast<int>(std::lround(body.place.width / body.size));
-    const int rows = static_cast<int>(std::lround(body.place.height / body.size));
+    const int columns = static_cast<int>(std::lround(body.rectangle.width / body.size));
+    const int rows = static_cast<int>(std::lround(body.rectangle.height / body.size));
     counts.push_back(columns * rows);
     for (int j = 0; j < rows; ++j)
       for (int i = 0; i < columns; ++i)
       {
-        x.push_back(body.place.left + (i + 0.5 + random(-scatter, scatter)) * body.size);
-        y.push_back(body.place.bottom + (j + 0.5 + random(-scatter, scatter)) * body.size);
+        x.push_back(body.rectangle.left + (i + 0.5 + random(-scatter, scatter)) * body.size);
+        y.push_back(body.rectangle.bottom + (j + 0.5 + random(-scatter, scatter)) * body.size);
         volume.push_back(body.size * body.size);
         mass.push_back(volume.back() * materials.back().elastic().density);
       }
@@ -143,6 +153,8 @@ inline Domain make_domain(const std::vector<Body>& bodies, double spacing = 1, d
   return domain;
 }
 
+/// Each component up to `speed` (m/s) in magnitude, each particle for itself: the roughest field that there
+/// is.
 inline void random_velocities(Domain& domain, double speed, unsigned seed)
 {
   Random random(seed);
@@ -150,6 +162,7 @@ inline void random_velocities(Domain& domain, double speed, unsigned seed)
     for (double& v : *field) v = random(-speed, speed);
 }
 
+/// Each component of the affine matrix C up to `rate` (1/s) in magnitude.
 inline void random_affine(Domain& domain, double rate, unsigned seed)
 {
   Random random(seed);
@@ -158,6 +171,7 @@ inline void random_affine(Domain& domain, double rate, unsigned seed)
     for (double& c : *field) c = random(-rate, rate);
 }
 
+/// Each component up to `stress` (Pa) in magnitude.
 inline void random_stress(Domain& domain, double stress, unsigned seed)
 {
   Random random(seed);
@@ -177,8 +191,8 @@ inline void set_velocity(Domain& domain, double vx, double vy)
 inline Domain random_corner(double h, int to_x, int to_y)
 {
   const double x = -3 * h, y = 5 * h, width = 9 * h, height = 7 * h;
-  const Rectangle place{to_x > 0 ? x : x - width, to_y > 0 ? y : y - height, width, height};
-  Domain domain = make_domain({{elastic(), place, h / 2}}, h, 0.49, 71);
+  const Rectangle rectangle{to_x > 0 ? x : x - width, to_y > 0 ? y : y - height, width, height};
+  Domain domain = make_domain({{elastic(), rectangle, h / 2}}, h, 0.49, 71);
   random_velocities(domain, 2, 72);
   random_affine(domain, 3, 73);
   random_stress(domain, 1e5, 74);
@@ -237,7 +251,8 @@ inline double greatest(const std::vector<double>& values)
   return result;
 }
 
-/// Elastic strain energy in J per m.
+/// Elastic strain energy in J per m: sum over particles of V/2 sigma : C^-1 : sigma, which for an isotropic
+/// solid is V ((1 + nu) sigma : sigma - nu (tr sigma)^2) / 2E.
 inline double strain_energy(const Domain& domain)
 {
   const Particles& p = domain.particles;

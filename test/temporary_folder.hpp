@@ -1,4 +1,5 @@
 #pragma once
+// Files and folders of a test's own, and how an action fails.
 
 #include "io/common/error.hpp"
 
