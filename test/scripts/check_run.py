@@ -17,7 +17,7 @@ case ${0##*/} in mpm-static) exit "${STATIC:-0}" ;; mpm-seismic) exit "${SEISMIC
 """
 
 
-class Place:
+class Repository:
     """A repository with stubs for whatever scripts/run starts, and some files to start it with."""
 
     def __init__(self, folder):
@@ -76,48 +76,48 @@ def wrong(*claims):
     return float(sum(not claim for claim in claims)), 0.0
 
 
-def anywhere(place):
+def anywhere(repository):
     """Options before and behind the case; those of both stages to both, the motion's to the second."""
-    _, _, called = place.run("--threads", "2", "--motion", "a/quake.AT2", "cases/hill/case.yaml", "--set", "a=1",
+    _, _, called = repository.run("--threads", "2", "--motion", "a/quake.AT2", "cases/hill/case.yaml", "--set", "a=1",
                              "--scale=0.5", "--quiet", "--set=b=x y", "--profile", "quick", "--max-wall", "1 h")
     static, shaken = called["mpm-static"][0], called["mpm-seismic"][0]
     shared = ["--quiet", "--set", "a=1", "--set", "b=x y", "--profile", "quick", "--threads", "2", "--max-wall", "1 h"]
-    case = str(place.root / "cases/hill/case.yaml")
+    case = str(repository.root / "cases/hill/case.yaml")
     return wrong(static == [case, "--out", after(static, "--out"), *shared],
                  shaken == [case, "--from", after(static, "--out") + "/final.h5", "--out", after(shaken, "--out"), *shared,
                             "--motion", "a/quake.AT2", "--scale", "0.5"],
                  len(called["plot-run"]) == 2, len(called["install-packages"]) == 1)
 
 
-def names(place):
+def names(repository):
     """Folders of cases and profiles, and --out."""
-    _, _, called = place.run("--out", "elsewhere")
-    return wrong(place.folders() == ("static", "slope"),
-                 place.folders("cases/slope/case.yaml") == ("static", "slope"),
-                 place.folders("cases/slope/other.yaml") == ("slope_other-static", "slope_other"),
-                 place.folders("cases/hill/case.yaml") == ("hill-static", "hill"),
-                 place.folders("--profile", "quick") == ("static-quick", "slope-quick"),
-                 place.folders("my $case's/case.yaml", "--profile", "a/b") == ("my $case's-static-a_b", "my $case's-a_b"),
-                 place.folders("--threads", "1", "--verbose") == ("static", "slope"),
+    _, _, called = repository.run("--out", "elsewhere")
+    return wrong(repository.folders() == ("static", "slope"),
+                 repository.folders("cases/slope/case.yaml") == ("static", "slope"),
+                 repository.folders("cases/slope/other.yaml") == ("slope_other-static", "slope_other"),
+                 repository.folders("cases/hill/case.yaml") == ("hill-static", "hill"),
+                 repository.folders("--profile", "quick") == ("static-quick", "slope-quick"),
+                 repository.folders("my $case's/case.yaml", "--profile", "a/b") == ("my $case's-static-a_b", "my $case's-a_b"),
+                 repository.folders("--threads", "1", "--verbose") == ("static", "slope"),
                  after(called["mpm-static"][0], "--out") == "elsewhere/static",
                  after(called["mpm-seismic"][0], "--out") == "elsewhere/slope")
 
 
-def others(place):
+def others(repository):
     """Another motion, scale or setting has another folder; the same in other words has the same. The static state is
     shared by all that it does not depend on."""
-    shaken = [place.folders(*words) for words in (
+    shaken = [repository.folders(*words) for words in (
         (), ("--motion", "a/quake.AT2"), ("--motion", "b/quake.AT2"), ("--vertical", "a/quake.AT2"), ("--scale", "2"),
         ("--motion", "a/quake.AT2", "--scale", "2"), ("--motion", "a/quake.AT2", "--record-dt", "0.1"),
         ("--motion", "a/quake.AT2", "--record-unit", "g"), ("--set", "seismic.duration=3 s"),
         ("--set", "seismic.duration=4 s"), ("--set", "grid.spacing=2 m"))]
-    same = place.folders("--scale", "2", f"--motion={place.root}/a/quake.AT2")
+    same = repository.folders("--scale", "2", f"--motion={repository.root}/a/quake.AT2")
     return wrong(len({folder for _, folder in shaken}) == len(shaken),
                  {folder for folder, _ in shaken[:-1]} == {"static"}, shaken[-1][0].startswith("static-"),
                  shaken[1][1].startswith("slope-quake-"), shaken[5][1].startswith("slope-quake-x2-"), same == shaken[5])
 
 
-def refusals(place):
+def refusals(repository):
     """Wrong options end with 64 before anything is installed or built, a file that is missing with 66."""
     found = []
     for words, code, part in (
@@ -128,7 +128,7 @@ def refusals(place):
             (("--from", "x"), 64, "--from"), (("cases/hill/case.yaml", "cases/slope/case.yaml"), 64, "too many"),
             (("",), 64, "empty"), (("none.yaml",), 66, "none.yaml"), (("--motion", "none.AT2"), 66, "none.AT2"),
             (("--quiet=1",), 64, "no such option")):
-        ended, said, called = place.run(*words)
+        ended, said, called = repository.run(*words)
         good = ended == code and part in said and not any(called.values())
         if not good:
             print(words, ended, said)
@@ -136,24 +136,24 @@ def refusals(place):
     return wrong(*found)
 
 
-def codes(place):
+def codes(repository):
     """Exit codes of the stages pass through, and nothing is started after one that failed."""
     found = []
     for code in ("64", "65", "73", "75", "80", "81"):
-        ended, _, called = place.run(STATIC=code)
+        ended, _, called = repository.run(STATIC=code)
         found.append(ended == int(code) and not called["mpm-seismic"] and not called["plot-run"])
-        ended, _, called = place.run(SEISMIC=code)
+        ended, _, called = repository.run(SEISMIC=code)
         found.append(ended == int(code) and len(called["mpm-static"]) == 1 and not called["plot-run"])
     return wrong(*found)
 
 
-def checking(place):
+def checking(repository):
     """With --check both stages tell what they would do, and nothing is drawn."""
-    code, _, called = place.run("--check")
-    state = place.root / "run/static/final.h5"
+    code, _, called = repository.run("--check")
+    state = repository.root / "run/static/final.h5"
     state.parent.mkdir(parents=True)
     state.touch()
-    _, _, later = place.run("--check")
+    _, _, later = repository.run("--check")
     return wrong(code == 0, "--check" in called["mpm-static"][0], "--check" in called["mpm-seismic"][0],
                  not called["plot-run"], "--from" not in called["mpm-seismic"][0],
                  after(later["mpm-seismic"][0], "--from") == str(state))
@@ -163,7 +163,7 @@ def checks():
     """Name and (error, tolerance) of every check."""
     for check in (anywhere, names, others, refusals, codes, checking):
         with tempfile.TemporaryDirectory() as folder:
-            yield check.__doc__.splitlines()[0], check(Place(folder))
+            yield check.__doc__.splitlines()[0], check(Repository(folder))
 
 
 if __name__ == "__main__":
