@@ -99,6 +99,7 @@ StaticSettings read_static(Section section)
   s.until.kinetic = until.number_or(
       s.until.kinetic, {"kinetic", "and the kinetic energy this share of the potential energy of gravity"},
       Dimension::none, Interval::positive());
+  // A ramp of any length leaves as much time again to settle.
   const double default_end = std::max(s.until.at_most, 2 * s.ramp);
   s.until.at_most = until.number_or(
       default_end,
@@ -112,9 +113,11 @@ StaticSettings read_static(Section section)
 /// All that was read, and what was looked at in another way as it stands.
 Settings::Entries resolved(const Case& case_file, const YamlNode& tree, Settings settings)
 {
+  // What was looked at in another way than by a reader of numbers and words stands here as it was typed.
   for (const auto& [path, text] : flattened(tree))
     if (!settings.knows(path)) settings.set(path, text);
   const SeismicSettings& seismic = case_file.seismic;
+  // "auto" depends on the ground; written out, the case means the same when a default changes.
   if (settings.knows("seismic.duration") && seismic.base == BaseKind::compliant && !seismic.spring)
     settings.set("seismic.base.spring", quantity_text(case_file.longest_period(), Dimension::time));
   return settings.entries();
@@ -152,6 +155,7 @@ Case load_case(const std::filesystem::path& path, const std::vector<std::string>
   Problems problems;
   YamlNode tree = parse_yaml(case_file.text, path.string(), problems);
   if (tree.kind == YamlNode::Kind::empty) problems.throw_if_any(); // not YAML: nothing more can be said
+  // The profile first: --set has the last word.
   apply_profile(tree, profile, problems);
   for (const std::string& text : overrides) apply_override(tree, text, problems);
   read_parts(case_file, tree, problems);

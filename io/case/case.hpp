@@ -83,22 +83,25 @@ struct StaticSettings
   Convergence until;
 };
 
+/// `seismic.base.kind`.
 enum class BaseKind
 {
-  compliant,
-  fixed,
+  compliant, ///< dashpots: waves leave, the motion enters as an upgoing wave
+  fixed,     ///< it does not move, and takes no motion
 };
+/// `seismic.sides.kind`.
 enum class SideKind
 {
-  free_field,
-  quiet,
-  roller,
+  free_field, ///< columns of level ground move the sides; what the slope scatters leaves
+  quiet,      ///< dashpots alone: waves leave, and the motion is damped beside them
+  roller,     ///< no motion across the side; waves are reflected
 };
+/// `seismic.motion.end`: when the motion fades before its record is over.
 enum class MotionEnd
 {
   never,
-  time,
-  self_driven,
+  time,        ///< at a time of the case
+  self_driven, ///< when the slide goes on by itself
 };
 
 /// Where one component of the ground motion comes from.
@@ -151,41 +154,46 @@ struct SeismicSettings
 {
   double duration = 0;       ///< s; 0: the case has no seismic section; NaN: it goes with the record
   double after_record = NAN; ///< s that the run goes on after its record; NaN: `duration` is given
-  BaseKind base = BaseKind::compliant;
+  BaseKind base = BaseKind::compliant; ///< for the domain and the columns
   SpringTime spring;
   SideKind sides = SideKind::free_field;
   double flip_blend = 0; ///< share of FLIP in the velocity update
   FlipEnds flip_ends = FlipEnds::on_slide;
-  Inertia inertia = Inertia::lumped;
+  Inertia inertia = Inertia::lumped; ///< the mass matrix of the grid
   GroundLeaving leaving = GroundLeaving::remove;
   double rest_below = 0; ///< speed of ground that may be skipped after the motion, m/s; 0: none is, see Rest
   MotionSettings motion;
 };
 
+/// `output.frames`: pictures of all particles.
 struct FrameSettings
 {
   double every = 0.5;              ///< s
   std::vector<std::string> fields; ///< out of frame_fields()
 };
 
+/// One of `output.gauges.points`: where the gauge is at the start; it moves with the ground there.
 struct GaugePoint
 {
   std::string name;
   double x = NAN, y = NAN; ///< m
 };
 
+/// `output.gauges`.
 struct GaugeSettings
 {
-  double every = 0.01; ///< s
+  double every = 0.01; ///< s; of gauges and free field
   std::vector<GaugePoint> points;
 };
 
+/// `output.checkpoint`: how much work a crash may cost.
 struct CheckpointSettings
 {
   double every = 600; ///< s of wall time
   int keep = 2;
 };
 
+/// `output`.
 struct OutputSettings
 {
   FrameSettings frames;
@@ -193,6 +201,7 @@ struct OutputSettings
   CheckpointSettings checkpoint;
 };
 
+/// A case as it was read and checked: what the programs know of the world.
 struct Case
 {
   std::filesystem::path path;
@@ -203,11 +212,11 @@ struct Case
   Settings::Entries settings;
   std::vector<std::string> warnings; ///< for the log
 
-  std::string name;
+  std::string name; ///< for messages and pictures
   GridSettings grid;
   Extent domain;
-  std::vector<Surface> surfaces;
-  std::vector<Region> regions; ///< the first that holds a point has it
+  std::vector<Surface> surfaces; ///< in the order of the file; regions name them by index
+  std::vector<Region> regions;   ///< the first that holds a point has it
   std::vector<Material> materials;
   StaticSettings static_stage;
   SeismicSettings seismic;

@@ -1,3 +1,5 @@
+// What shows only when grid, domain, surfaces and regions are looked at together.
+
 #include "boundaries/images.hpp"
 #include "io/case/sections.hpp"
 
@@ -19,6 +21,7 @@ std::string metres(double value)
   return text.data();
 }
 
+/// The node at the end of a path of keys; null where there is none.
 const YamlNode* at(const YamlNode& tree, std::initializer_list<std::string_view> keys)
 {
   const YamlNode* node = &tree;
@@ -27,6 +30,8 @@ const YamlNode* at(const YamlNode& tree, std::initializer_list<std::string_view>
   return node;
 }
 
+/// Free-field columns and walls stand on grid lines: a part of a cell at a side would be neither ground nor
+/// outside.
 void check_width(const Case& case_file, const YamlNode& tree, Problems& problems)
 {
   const double cells = case_file.domain.width() / case_file.grid.spacing;
@@ -38,6 +43,7 @@ void check_width(const Case& case_file, const YamlNode& tree, Problems& problems
                    metres(case_file.grid.spacing) + ", as " + metres(whole));
 }
 
+/// Half a cell beyond the ground is allowed: a gauge at the surface is meant to be at its highest particle.
 void check_gauges(const Case& case_file, const YamlNode& tree, Problems& problems)
 {
   const double half = case_file.grid.spacing / 2;
@@ -91,6 +97,7 @@ bool bounds_a_region(const Case& case_file, int surface)
                      [&](const Region& r) { return r.below == surface || r.above == surface; });
 }
 
+/// How much a surface rises and falls over [from, to], what is below the bottom cut off, m.
 double variation(const Case& case_file, const Surface& surface, double from, double to)
 {
   double low = INFINITY, high = -INFINITY;
@@ -155,6 +162,7 @@ void warn_of_slopes_at_sides(Case& case_file)
             " side; a free-field column wants level layers over one slope height there");
 }
 
+/// Near incompressibility P waves become ever faster, and the time step is set by them.
 void warn_of_materials(Case& case_file)
 {
   for (const Material& material : case_file.materials)
@@ -165,6 +173,7 @@ void warn_of_materials(Case& case_file)
   warn_of_laws(case_file);
 }
 
+/// A line that ends within the domain goes on level, which may be meant or forgotten.
 void warn_of_short_profiles(Case& case_file)
 {
   for (const Surface& surface : case_file.surfaces)
@@ -212,6 +221,7 @@ std::vector<Layer> Case::layers(double from, double to) const
   return layers;
 }
 
+// The domain does not hold its right side: the column of cells that ends there is the one to look at.
 double Case::ground_height(double x) const
 {
   const double inside = std::clamp(x, domain.left, std::nextafter(domain.right, domain.left));
@@ -219,6 +229,7 @@ double Case::ground_height(double x) const
   return column.empty() ? domain.bottom : column.back().top;
 }
 
+// T = 4 int dy / v_s, the fundamental period of level layers on a rigid base.
 double Case::longest_period() const
 {
   double longest = 0;
@@ -233,6 +244,8 @@ double Case::longest_period() const
   return longest;
 }
 
+// In this order: the size first, because what comes after it walks through the columns, and a case of a
+// billion of them would never end.
 void check_geometry(Case& case_file, const YamlNode& tree, Problems& problems)
 {
   check_size(case_file, tree, problems);

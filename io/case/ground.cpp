@@ -1,3 +1,5 @@
+// `surfaces` and `regions`: the ground as lines and what lies between them.
+
 #include "io/case/sections.hpp"
 
 namespace mpm
@@ -13,6 +15,7 @@ struct Offset
 
 std::string rising_problem(const Polyline& line)
 {
+  // The height is a function of x: overhangs cannot be drawn, vertical faces only nearly.
   for (std::size_t i = 1; i < line.x.size(); ++i)
     if (line.x[i] <= line.x[i - 1])
       return "x must grow from point to point, and " + number_text(line.x[i]) + " m follows " +
@@ -46,6 +49,7 @@ void resolve_points(const Section& section, const Polyline& line, Problems& prob
     section.resolve(point + "[0]", quantity_text(line.x[i], Dimension::length));
     section.resolve(point + "[1]", quantity_text(line.y[i], Dimension::length));
   }
+  // The points stand for the file.
   problems.settings.drop(section.path_of("file"));
 }
 
@@ -68,6 +72,8 @@ constexpr std::string_view one_of_four = "none, but one of points, offset, file 
 Offset read_surface(Section section, Surface& surface, const std::filesystem::path& folder,
                     const std::vector<std::string>& names, Problems& problems)
 {
+  // The four kinds of surface. All are asked for before any is looked at, so that a second one is no unknown
+  // key.
   const YamlNode* points = section.find(
       {"points", "straight between the points, level beyond", "[[x, y], ...], lengths", one_of_four});
   const YamlNode* offset =
@@ -104,12 +110,14 @@ Offset read_surface(Section section, Surface& surface, const std::filesystem::pa
 void resolve_offsets(std::vector<Surface>& surfaces, const std::vector<Offset>& offsets, const YamlNode& node,
                      Problems& problems)
 {
+  // A surface may be measured from one that is itself an offset, in any order of the file.
   for (std::size_t i = 0; i < surfaces.size(); ++i)
   {
     std::string chain = surfaces[i].name;
     int at = static_cast<int>(i);
     std::size_t steps = 0;
     double up = 0;
+    // More steps than surfaces: the chain has come back to where it was.
     for (; offsets[at].base >= 0 && steps <= surfaces.size(); ++steps)
     {
       up += offsets[at].up;
@@ -141,6 +149,7 @@ Region read_region(const YamlNode& node, const std::vector<std::string>& surface
                    const std::vector<std::string>& materials, Problems& problems)
 {
   Region region;
+  // Regions have no names; messages of later stages tell them by their line.
   region.location = node.location.text() + ": " + node.path;
   Section section(&node, problems);
   if (const YamlNode* name = section.require({"material", "one of the materials", "name"}))
@@ -175,6 +184,7 @@ std::vector<Surface> read_surfaces(Section& root, const std::filesystem::path& f
     return problems.add(node->location, node->path,
                         "must be a map of names, as {ground: {points: [[0 m, 25 m]]}}"),
            surfaces;
+  // Names first: a surface may be measured from one that comes later.
   for (const YamlNode& child : node->children) surfaces.push_back({child.key, Polyline{{0}, {0}}, 0});
   const std::vector<std::string> names = surface_names(surfaces);
   std::vector<Offset> offsets;

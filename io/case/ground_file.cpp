@@ -49,6 +49,7 @@ std::vector<const LengthUnit*> units_in(std::string_view text)
   {
     const std::size_t begin = at;
     while (at < text.size() && is_letter(text[at])) ++at;
+    // "levels every 5 ft" says nothing of the columns.
     const std::size_t before = begin == 0 ? text.npos : text.find_last_not_of(" \t", begin - 1);
     const bool measures = before != text.npos && is_digit(text[before]);
     if (const LengthUnit* unit = length_unit(text.substr(begin, at - begin)); unit && !measures)
@@ -64,6 +65,7 @@ void check_names(const std::string& first, const std::string& second, int row)
   const auto begins = [](const std::string& name, std::string_view word)
   { return find_word(name, word) == 0; };
   if (begins(first, "depth") || begins(second, "depth"))
+    // A depth read as a height would turn the ground upside down, and it would still be a ground.
     throw BadRow{row, "has depths; write heights y, positive upwards"};
   for (std::string_view height : {"y", "z", "elevation", "height", "level", "altitude"})
     if (begins(first, height) && !begins(second, height) && !begins(second, "z"))
@@ -143,6 +145,7 @@ Polyline parse_line(const std::vector<Line>& lines)
     if (polyline.x.empty() && !comment.empty() && (text.empty() || is_heading))
       units.add(line, trimmed(comment.substr(std::min(comment.find_first_not_of('#'), comment.size()))),
                 true);
+    // Only the first line that is no comment: a word further down is damage.
     heading_allowed = heading_allowed && text.empty();
     if (text.empty() || is_heading) continue;
     if (has_decimal_commas(text)) throw BadRow{line.number, "has decimal commas; write decimal points"};

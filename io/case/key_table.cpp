@@ -83,6 +83,7 @@ std::vector<std::string> all_branches(const std::vector<KeyDescription>& keys)
 std::vector<std::string> wrapped(std::string_view text, std::size_t width)
 {
   std::vector<std::string> lines;
+  // A word that is longer than a line stays whole.
   while (text.size() > width)
   {
     const auto blank = text.rfind(' ', width);
@@ -102,6 +103,7 @@ std::vector<KeyDescription> case_keys()
   ignored.keys = &found;
   std::string text = std::string(one_of_everything) + "materials:\n";
   for (const std::string& model : model_names()) text += "  " + model + ": {model: " + model + "}\n";
+  // Whatever is missing in it is noted in `ignored` and looked at by nobody.
   Case nothing;
   read_parts(nothing, parse_yaml(text, "", ignored), ignored);
 
@@ -123,6 +125,7 @@ std::vector<KeyDescription> case_keys()
       described.key.meaning = fmt::format("{}: {}", fmt::join(described.models, ", "), described.key.meaning);
     keys.push_back(std::move(described.key));
   }
+  // Profiles are taken out of the tree before it is read, so that no reader tells of them.
   keys.push_back({"profiles.NAME", "map of key paths to values", "none",
                   "values for --profile NAME, which go before the file's own; --set goes before both"});
   return keys;
@@ -151,6 +154,7 @@ std::string text_of(const std::vector<KeyDescription>& keys)
   for (const KeyDescription& key : keys)
   {
     const std::string otherwise = key.otherwise.empty() ? "required" : "default: " + key.otherwise;
+    // The path stands before the first line only.
     std::string margin = key.path;
     for (const std::string& part : {key.form + "; " + otherwise, key.meaning})
       for (const std::string& line : wrapped(part, columns - indent))

@@ -21,6 +21,7 @@ struct Usual
 };
 
 constexpr double kilopascal = 1e3, megapascal = 1e6, degree = std::numbers::pi / 180;
+// Wide enough for anything from soft clay to fresh rock, and from the laboratory to a mountain side.
 constexpr std::array usual{
     Usual{"density", 800, 4000, 1, "kg/m3", "is it in t/m3 or g/cm3?"},
     Usual{"young_modulus", 0.1, 2e5, megapascal, "MPa", "is it in kPa, MPa or GPa?"},
@@ -82,6 +83,7 @@ void warn_of_strength(Case& case_file, const Material& material)
       material.law);
 }
 
+/// v_s = sqrt(G / rho): 20 m/s is the softest mud, 6000 m/s faster than any rock.
 void warn_of_speeds(Case& case_file, const Material& material)
 {
   warn_outside(case_file, "materials." + material.name + ": S waves", material.elastic().shear_speed(), 20,
@@ -108,6 +110,7 @@ void warn_of_settings(Case& case_file)
 {
   if (const double g = case_file.static_stage.gravity; g != 0)
     warn_outside(case_file, "static.gravity", g, 1, 20, "m/s2", "is it in m/s2, cm/s2 or g?");
+  // A load that grows within a period of the ground overshoots, by a factor of up to two.
   if (const double period = case_file.longest_period();
       case_file.static_stage.gravity != 0 && case_file.static_stage.ramp < period)
     case_file.warnings.push_back(
@@ -118,6 +121,7 @@ void warn_of_settings(Case& case_file)
   const double t = case_file.seismic.duration;
   if (!(t > 0)) return; // it has none, or goes with its record, which is judged itself
   warn_outside(case_file, "seismic.duration", t, 0.1, 3600, "s", "is it in s, min or h?");
+  // Each frame is a file of its own.
   const double frames = t / case_file.output.frames.every;
   if (frames > 10000)
     case_file.warnings.push_back(fmt::format(
@@ -136,6 +140,7 @@ struct Overburden
 
 Overburden overburden(const Case& case_file)
 {
+  // Fine enough for a warning, and independent of the cells.
   constexpr int strips = 200;
   Overburden most;
   most.stress.assign(case_file.materials.size(), 0);
@@ -210,6 +215,7 @@ void warn_of_yield_at_rest(Case& case_file, const Overburden& most)
     const Elastic& law = case_file.materials[m].elastic();
     const double least =
         std::visit([&](const auto& l) { return least_ratio(l, weight); }, case_file.materials[m].law);
+    // Elastic ground that settles between rollers: s_h = nu / (1 - nu) s_v.
     const double ratio = law.poisson / (1 - law.poisson);
     if (ratio >= least * (1 - 1e-9)) continue;
     case_file.warnings.push_back(fmt::format(

@@ -21,6 +21,7 @@ struct Target
 };
 
 template <class L>
+/// The parameters of a law as targets, numbers first.
 std::vector<Target> targets_of(L& law)
 {
   std::vector<Target> targets;
@@ -45,6 +46,7 @@ void read_targets(Section& section, const std::vector<Target>& targets)
   {
     const std::string_view name = t.key.name;
     const auto dot = name.find('.');
+    // A dot in a parameter's key parts the map that it stands in from its name there.
     if (dot == std::string_view::npos && t.choice)
       *t.choice = section.choice_or(*t.choice, t.key, t.names);
     else if (dot == std::string_view::npos)
@@ -85,6 +87,7 @@ void for_each_law(const F& f)
 void note_mismatch(const YamlNode& node, const std::string& message, Problems& problems)
 {
   if (message.empty()) return;
+  // Laws know no lines: they say "key: what", and the key is looked for in the file.
   const auto colon = message.find(": ");
   const std::string key = message.substr(0, colon);
   const YamlNode* at = &node;
@@ -136,8 +139,11 @@ Material read_material(const YamlNode& node, double spacing, Problems& problems)
       [&](auto law)
       {
         if (i++ != kind) return;
+        // Parameters that are wrong by themselves are not looked at together: the second message would
+        // mislead.
         const std::size_t before = problems.count();
         read_targets(section, targets_of(law));
+        // A law that softens needs the cell size, which may itself be what is wrong.
         if (problems.count() == before && std::isfinite(spacing))
         {
           note_mismatch(node, law.resolve(spacing), problems);
@@ -172,6 +178,7 @@ std::vector<Material> read_materials(Section& root, double spacing, Problems& pr
 
 std::vector<std::string> frame_fields()
 {
+  // Of every particle, whatever its law.
   std::vector<std::string> names{"displacement", "velocity", "stress"};
   for_each_law(
       [&](const auto& law)

@@ -1,3 +1,6 @@
+// `output`: what is written and how often. Nothing of it changes what is computed but `gauges.every`, which
+// the time step divides.
+
 #include "io/case/sections.hpp"
 
 #include <algorithm>
@@ -26,6 +29,7 @@ FrameSettings read_frames(Section section, const std::vector<Material>& material
       section.find({"fields", "what the frames hold of each particle",
                     "list of displacement, velocity, stress and the laws' history variables",
                     "all that the materials have"});
+  // By default all that the materials of this case have.
   if (!fields)
   {
     frames.fields = fields_of(materials);
@@ -35,6 +39,7 @@ FrameSettings read_frames(Section section, const std::vector<Material>& material
   {
     const int known = read_choice(*field, frame_fields(), problems);
     if (known < 0) continue;
+    // HDF5 would refuse the second, in the middle of the run.
     if (std::find(frames.fields.begin(), frames.fields.end(), field->text) != frames.fields.end())
       problems.add(field->location, field->path, "'" + field->text + "' is given twice; leave one");
     frames.fields.push_back(field->text);

@@ -1,3 +1,6 @@
+// Messages are sorted by line, because checks of the whole come after those of the parts, and people go
+// through a file from its top.
+
 #include "io/case/problems.hpp"
 
 #include "io/common/error.hpp"
@@ -35,6 +38,7 @@ void Problems::throw_if_any() const
                    });
   std::string all;
   for (const Entry& entry : sorted) all += (all.empty() ? "" : "\n") + entry.message;
+  // A missing file beside a mistake is told as a mistake: running again with the file would not help.
   throw Error(only_missing_ ? exit_code::input_missing : exit_code::bad_input, all);
 }
 } // namespace mpm

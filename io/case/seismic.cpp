@@ -1,3 +1,6 @@
+// `seismic`: how long, between which boundaries, shaken by what. Several keys are a word or a time, which
+// only the code can tell apart: their descriptions say it in words.
+
 #include "io/case/sections.hpp"
 #include "io/common/suggestion.hpp"
 
@@ -8,6 +11,7 @@ namespace mpm
 {
 namespace
 {
+/// A path of the case, which is relative to the case file and not to where the program runs.
 std::string beside(const std::filesystem::path& folder, const std::string& file)
 {
   return file.empty() ? file : (folder / file).lexically_normal().string();
@@ -29,6 +33,8 @@ MotionSource read_source(const YamlNode& node, const std::filesystem::path& fold
   source.record.file = beside(folder, section.text({"file", "record of the motion, see io/records",
                                                     "path, relative to the case file"}));
   if (section.given() && !source.record.file.empty())
+    // What a run depends on is the record's samples; the path is kept in full so that the written case can be
+    // run.
     section.resolve("file", std::filesystem::absolute(source.record.file).string());
   const std::vector<std::string> formats = record_formats();
   source.record.format =
@@ -56,6 +62,7 @@ MotionSource read_source(const YamlNode& node, const std::filesystem::path& fold
   return source;
 }
 
+/// None: nothing moves the base in this direction.
 std::optional<MotionSource> read_direction(Section& motion, std::string_view key, std::string_view otherwise,
                                            const std::filesystem::path& folder, Problems& problems)
 {
@@ -73,6 +80,7 @@ RecordedAs read_recorded_as(Section& motion, Problems& problems)
        "outcrop: recorded on rock at the surface, twice the upgoing wave; upgoing: that wave itself",
        "outcrop or upgoing"});
   if (!node) return RecordedAs::outcrop;
+  // People have such records and will try: the reason is worth more than a list of the two words.
   if (node->kind == YamlNode::Kind::scalar && node->text == "within")
   {
     problems.add(node->location, node->path, "'within' is not possible: " + std::string(why_not_within));
@@ -120,6 +128,7 @@ SpringTime read_spring(Section& base, BaseKind kind, Problems& problems)
   if (node->text == "none") return 0;
   if (node->kind == YamlNode::Kind::scalar && parse_quantity(node->text, Dimension::time).problem.empty())
   {
+    // A spring that has no effect is a misunderstanding, not a harmless extra.
     if (kind == BaseKind::fixed) base.error("spring", "a fixed base has no spring; leave it out");
     return read_number(*node, Dimension::time, Interval::positive(), problems);
   }
@@ -133,6 +142,7 @@ constexpr std::string_view with_record = "record";
 /// What follows the record in `record` or `record + TIME`, s; NaN: the text is neither.
 double after_record(std::string_view text)
 {
+  // "record", "record + 10 s", "record+10s": blanks do not count.
   text.remove_prefix(with_record.size());
   const auto skip_blanks = [&] { text.remove_prefix(std::min(text.find_first_not_of(' '), text.size())); };
   skip_blanks();
@@ -176,9 +186,11 @@ MotionSettings read_motion(Section motion, const std::filesystem::path& folder, 
   }
   else
   {
+    // Without a motion the built-in one shakes the base, which is an outcrop motion.
     motion.resolve("recorded_as", "outcrop");
     motion.resolve("horizontal", "built_in");
   }
+  // A motion that moves nothing is a section that was left half done.
   if (!settings.horizontal && !settings.vertical)
     motion.error("", "has no record; give horizontal, vertical or both (built_in is the program's own)");
   const std::vector<std::string> baselines{"none", "linear", "quadratic", "cubic"};
@@ -209,6 +221,7 @@ SeismicSettings read_seismic(Section& root, const std::filesystem::path& folder,
     settings.base = static_cast<BaseKind>(
         base.choice_or(0, {"kind", "compliant: lets waves out, the motion comes in; fixed: takes no motion"},
                        {"compliant", "fixed"}));
+    // A fixed base has no record from which the length could count.
     if (settings.base == BaseKind::fixed && !std::isnan(settings.after_record))
       section.error("duration", "counts from a record, and a fixed base takes none; give a time as '24 s'");
     settings.spring = read_spring(base, settings.base, problems);

@@ -1,3 +1,7 @@
+// Settings are kept flat, by key path, since comparing two runs wants a list; the tree comes back only to be
+// printed as YAML. A value is text in SI that reads back to the same number, so that two cases are one if the
+// texts are.
+
 #include "io/case/settings.hpp"
 
 #include "io/case/yaml_tree.hpp"
@@ -40,8 +44,10 @@ YamlNode& below(YamlNode& node, const std::string& step)
   return made;
 }
 
+/// Maps in block style, lists of plain values in one line.
 void emit(YAML::Emitter& out, const YamlNode& node)
 {
+  // An empty list has no element that a path could name; it is kept as a value of its own.
   if (node.kind == Kind::scalar && node.text == empty_list)
   {
     out << YAML::Flow << YAML::BeginSeq << YAML::EndSeq;
@@ -81,6 +87,7 @@ void Settings::set(const std::string& path, const std::string& value)
     all_[entry->second].second = value;
 }
 
+// An empty value keeps the key known, so that the tree's own text does not come in for it.
 void Settings::drop(const std::string& path)
 {
   set(path, "");

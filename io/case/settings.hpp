@@ -22,6 +22,7 @@ public:
   void drop(const std::string& path);
   /// Whether a key was set or dropped.
   bool knows(const std::string& path) const { return indices_.contains(path); }
+  /// All but those that were dropped.
   Entries entries() const;
 
 private:

@@ -139,6 +139,7 @@ void check_size(Case& case_file, const YamlNode& tree, Problems& problems)
   if (!(d * d > std::numeric_limits<double>::min()) || !std::isfinite(case_file.domain.width() / d))
     return problems.add(spacing.location, spacing.path,
                         "makes more cells than numbers can count; use larger cells");
+  // 20 % of what is free is left to the machine.
   const CaseSize size = expected_size(case_file);
   const FreeMemory free = free_memory();
   if (const double histories = sample_bytes * size.samples; 0.8 * histories > free.bytes)

@@ -1,4 +1,5 @@
 #pragma once
+// What a run costs in memory, known before anything is made.
 
 #include "io/case/case.hpp"
 
@@ -7,10 +8,10 @@ namespace mpm
 /// How large a run of a case is: known from its geometry, without making it.
 struct CaseSize
 {
-  double particles = 0;
-  double nodes = 0;   ///< of the grid
-  double columns = 0; ///< of particles across the domain
-  double samples = 0; ///< numbers in the histories
+  double particles = 0; ///< of the domain; those of the columns are few
+  double nodes = 0;     ///< of the grid
+  double columns = 0;   ///< of particles across the domain
+  double samples = 0;   ///< numbers in the histories
 };
 
 /// Estimate from strips of the geometry, no more than a thousand; the ground's area is exact to how even it

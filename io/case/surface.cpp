@@ -1,3 +1,6 @@
+// Heights, and areas below them. A column of cells is filled to the mean height over its width, so that the
+// ground has the volume that the case draws whatever the cells.
+
 #include "io/case/surface.hpp"
 
 #include <algorithm>
@@ -6,6 +9,7 @@
 
 namespace mpm
 {
+// Between two points y = y_0 + (y_1 - y_0) s with s from 0 to 1; beyond the ends the last height.
 double Polyline::height(double at) const
 {
   const auto next = std::upper_bound(x.begin(), x.end(), at) - x.begin();
@@ -15,6 +19,7 @@ double Polyline::height(double at) const
   return y[next - 1] + s * (y[next] - y[next - 1]);
 }
 
+// Trapezoids from kink to kink, which is exact.
 double Polyline::area(double from, double to) const
 {
   double sum = 0, left = from;
@@ -35,6 +40,7 @@ double GaussianHill::height(double at) const
   return base + (level ? rise : rise * std::exp(-s * s));
 }
 
+// int exp(-s^2) ds = sqrt(pi)/2 erf(s); the level side is a rectangle.
 double GaussianHill::area(double from, double to) const
 {
   // Split at the centre, where a one-sided hill changes.

@@ -1,4 +1,5 @@
 #pragma once
+// Lines y(x) of a case, which bound its ground.
 
 #include <string>
 #include <variant>
@@ -9,7 +10,7 @@ namespace mpm
 /// Straight lines between points of growing x, level beyond the first and the last; m.
 struct Polyline
 {
-  std::vector<double> x, y;
+  std::vector<double> x, y; ///< as many of each; x grows
 
   double height(double at) const;
   double area(double from, double to) const; ///< integral of the height in m2
@@ -18,13 +19,15 @@ struct Polyline
 /// base + rise exp(-((x - centre) / width)^2), on one side if asked, level at full height on the other; m.
 struct GaussianHill
 {
+  /// The side of the centre on which the hill falls.
   enum class Side
   {
     both,
     right,
     left,
   };
-  double base = 0, rise = 0, centre = 0, width = 1;
+  double base = 0, rise = 0;    ///< heights of the lower level, and of the top above it
+  double centre = 0, width = 1; ///< x of the top, and the distance over which e^-1 of the rise is left
   Side side = Side::both;
 
   double height(double at) const;
@@ -34,7 +37,7 @@ struct GaussianHill
 /// A named line y(x) of a case. An offset surface is the shape it is measured from, and `up`.
 struct Surface
 {
-  std::string name;
+  std::string name; ///< its key in the case
   std::variant<Polyline, GaussianHill> shape;
   double up = 0; ///< m
 

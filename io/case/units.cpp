@@ -1,3 +1,6 @@
+// The only table of units of the case file. A unit belongs to one dimension, so that "5 s" for a length is
+// refused and not converted.
+
 #include "io/case/units.hpp"
 
 #include "boundaries/ground_motion/ground_motion.hpp"
@@ -14,6 +17,7 @@ namespace mpm
 {
 namespace
 {
+/// A unit that a case may use.
 struct Unit
 {
   std::string_view name;
@@ -56,6 +60,7 @@ std::string_view trimmed(std::string_view text)
   return text.substr(from, text.find_last_not_of(" \t") - from + 1);
 }
 
+/// "m/s^2" is written as often as "m/s2".
 std::string without_carets(std::string_view text)
 {
   std::string plain(text);
@@ -63,6 +68,7 @@ std::string without_carets(std::string_view text)
   return plain;
 }
 
+/// The value in SI, or what to write instead.
 Quantified convert(double number, std::string_view number_as_written, std::string_view unit,
                    Dimension dimension)
 {
@@ -85,6 +91,7 @@ Quantified convert(double number, std::string_view number_as_written, std::strin
 
 Quantified parse_quantity(std::string_view text, Dimension dimension)
 {
+  // from_chars reads no leading +, and neither hexadecimal nor "1,5".
   const std::string_view all = trimmed(text);
   std::string_view rest = all;
   if (rest.size() > 1 && rest[0] == '+' && rest[1] != '-') rest.remove_prefix(1);
@@ -151,6 +158,7 @@ std::string_view name_of(Dimension dimension)
 
 std::string number_text(double value)
 {
+  // The shortest that reads back (std::to_chars): 17 digits, a sign, a point and an exponent at most.
   std::array<char, 32> buffer;
   const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
   return {buffer.data(), end};
@@ -166,6 +174,7 @@ std::string quantity_text(double value, Dimension dimension)
 {
   const std::string_view unit = si_unit(dimension);
   std::string number = fmt::format("{:.15g}", value); // 40000000, not 4e+07
+  // Fifteen digits do not always read back to the same number; the shortest text that does is used then.
   if (std::strtod(number.c_str(), nullptr) != value) number = number_text(value);
   return number + (unit.empty() ? "" : " " + std::string(unit));
 }

@@ -23,6 +23,7 @@ std::string units_of(Dimension dimension);
 std::string_view usual_unit(Dimension dimension);
 /// The unit in which its values are kept: "Pa"; empty for a pure number.
 std::string_view si_unit(Dimension dimension);
+/// "length", for messages and --keys.
 std::string_view name_of(Dimension dimension);
 
 /// The shortest text that reads back as the same number.

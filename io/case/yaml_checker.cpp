@@ -1,3 +1,6 @@
+// Every reader answers something, NaN or a first choice, after it has noted what is wrong: one mistake shall
+// not hide those after it. What was read is noted in the settings in the same moment, in SI.
+
 #include "io/case/yaml_checker.hpp"
 
 #include "io/case/renamed_keys.hpp"
@@ -11,6 +14,7 @@ namespace mpm
 {
 namespace
 {
+/// For messages, after the key.
 std::string_view kind_of(const YamlNode& node)
 {
   switch (node.kind)
@@ -52,6 +56,7 @@ bool is_scalar(const YamlNode& node, std::string_view wanted, Problems& problems
 }
 } // namespace
 
+// In the unit that people write: 90 deg, not 1.5708 rad.
 std::string interval_text(const Interval& interval, Dimension dimension)
 {
   std::string text;
@@ -65,6 +70,7 @@ std::string interval_text(const Interval& interval, Dimension dimension)
 
 double read_number(const YamlNode& node, Dimension dimension, const Interval& interval, Problems& problems)
 {
+  // What to give is told also where the value is a list or a map.
   const std::string wanted = dimension == Dimension::none
                                  ? "a number"
                                  : "a number with a unit of " + std::string(name_of(dimension));
@@ -75,6 +81,7 @@ double read_number(const YamlNode& node, Dimension dimension, const Interval& in
     problems.add(node.location, node.path, number.problem);
     return NAN;
   }
+  // Also where it is out of range: then nobody compares settings.
   problems.settings.set(node.path, quantity_text(number.value, dimension));
   if (interval.holds(number.value)) return number.value;
   const std::string reason = interval.reason.empty() ? "" : ", " + std::string(interval.reason);
@@ -88,6 +95,7 @@ int read_integer(const YamlNode& node, int least, int most, Problems& problems)
   if (!is_scalar(node, "a whole number", problems)) return least;
   int value = 0;
   const char* end = node.text.data() + node.text.size();
+  // "3.0" and "3 " are no whole numbers: what is not understood in full is not understood.
   const auto result = std::from_chars(node.text.data(), end, value);
   problems.settings.set(node.path, std::to_string(value));
   if (result.ec == std::errc{} && result.ptr == end && value >= least && value <= most) return value;
@@ -154,6 +162,7 @@ Section::Section(const YamlNode* node, Problems& problems, std::string path)
 Section::~Section()
 {
   if (!node_) return;
+  // What nobody has asked for by now is unknown, or had this name once.
   for (const YamlNode& child : node_->children)
     if (std::find(known_.begin(), known_.end(), child.key) == known_.end())
     {
@@ -165,12 +174,14 @@ Section::~Section()
     }
 }
 
+// Asking for a key makes it known, whether it is there or not.
 const YamlNode* Section::look_up(std::string_view key)
 {
   if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.emplace_back(key);
   return node_ ? node_->child(key) : nullptr;
 }
 
+// A section without a path is one of another kind of file, which --keys does not list.
 void Section::describe(const Key& key, const std::string& form, const std::string& otherwise) const
 {
   if (!problems_.keys || !named_) return;
@@ -209,6 +220,7 @@ void Section::error(std::string_view key, const std::string& what) const
   if (!node_) return;
   const YamlNode* child = node_->child(key);
   const std::string prefix = node_->path.empty() || key.empty() ? node_->path : node_->path + ".";
+  // A missing key has no location: that of its section has to do.
   const Location& own = node_->key_location.source.empty() ? node_->location : node_->key_location;
   problems_.add(child ? child->location : own, prefix + std::string(key), what);
 }
@@ -282,6 +294,7 @@ int Section::choice_or(int fallback, const Key& key, const std::vector<std::stri
   return fallback;
 }
 
+// What is below an absent section is asked for all the same: its defaults are settings, and its keys known.
 Section Section::section(std::string_view key)
 {
   return Section(look_up_required(key), problems_, path_of(key));

@@ -15,8 +15,13 @@ namespace mpm
 /// "above 0 m and at most 2 m"
 std::string interval_text(const Interval& interval, Dimension dimension);
 
+// Each notes what is wrong at the node's location, and answers something with which reading can go on.
+
+/// A number with a unit of the dimension, in SI; NaN where wrong or not of the interval.
 double read_number(const YamlNode& node, Dimension dimension, const Interval& interval, Problems& problems);
+/// A whole number from `least` to `most`; `least` where wrong.
 int read_integer(const YamlNode& node, int least, int most, Problems& problems);
+/// A text that is not empty.
 std::string read_text(const YamlNode& node, Problems& problems);
 /// Index of the value among `names`, -1 if it is none of them.
 int read_choice(const YamlNode& node, const std::vector<std::string>& names, Problems& problems);

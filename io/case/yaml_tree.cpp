@@ -24,6 +24,7 @@ struct Builder
   int nodes = 0;
   bool too_much = false;
 
+  // yaml-cpp counts from 0, editors from 1.
   Location location_of(const YAML::Mark& mark) const
   {
     if (!has_lines || mark.is_null()) return {source, 0, 0};
@@ -69,6 +70,7 @@ struct Builder
     const Location location = location_of(key.Mark());
     if (!key.IsScalar()) return problems.add(location, map.path, "has a key that is not a plain word");
     const std::string& name = key.Scalar();
+    // The keys of a profile are paths, whose dots are no part of a name.
     const std::string part =
         map.path.starts_with("profiles.") ? name : path_part(name); // key paths themselves
     const std::string path = map.path.empty() ? part : map.path + "." + part;
@@ -82,6 +84,7 @@ struct Builder
     YamlNode child = build(value, path, depth + 1);
     child.key = name;
     child.key_location = location;
+    // An empty value has no location of its own.
     if (child.location.line == 0) child.location = location;
     map.children.push_back(std::move(child));
   }
@@ -108,6 +111,7 @@ std::vector<std::string> parts_of(std::string_view path)
 YamlNode* step_down(YamlNode& node, const std::string& part, const Location& location, Problems& problems)
 {
   const std::string here = node.path.empty() ? "the case" : node.path;
+  // `seismic:` without anything below it becomes a map when a key is put there.
   if (node.kind == YamlNode::Kind::empty) node.kind = YamlNode::Kind::map;
   if (node.kind == YamlNode::Kind::scalar)
     return problems.add(location, node.path, "is a single value and has no '" + part + "' below it"), nullptr;
@@ -187,6 +191,7 @@ YamlNode parse_yaml(const std::string& text, const std::string& file, Problems& 
 {
   try
   {
+    // All of them: what follows "---" would otherwise be passed over in silence.
     const std::vector<YAML::Node> documents = YAML::LoadAll(text);
     if (documents.size() > 1) problems.add({file, 0, 0}, "", "holds several YAML documents; leave one");
     if (!documents.empty()) return Builder{file, true, problems}.build(documents[0], "", 0);
@@ -211,6 +216,7 @@ void apply_override(YamlNode& root, const std::string& override_text, Problems& 
   const std::vector<std::string> parts = parts_of(path);
   if (equals == std::string::npos || !is_key_path(parts))
     return problems.add(location, "", "is not of the form key.path=value");
+  // The value is YAML itself, so that a list or a map can be given: --set "domain.x=[0 m, 90 m]".
   YAML::Node value;
   try
   {

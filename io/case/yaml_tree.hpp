@@ -22,12 +22,13 @@ struct YamlNode
     map,
   };
   Kind kind = Kind::empty;
-  std::string key;
-  std::string path; ///< "materials.soil.density", "domain.x[0]"
-  std::string text; ///< of a scalar
-  Location location, key_location;
-  std::vector<YamlNode> children;
+  std::string key;                 ///< of a map's child
+  std::string path;                ///< "materials.soil.density", "domain.x[0]"
+  std::string text;                ///< of a scalar
+  Location location, key_location; ///< of the value and of its key
+  std::vector<YamlNode> children;  ///< of a list or map, in the file's order
 
+  /// Of a map, by its key; null: there is none, or this is no map.
   const YamlNode* child(std::string_view key) const;
   /// The node at another key path, and all below it with it.
   void move_to(const std::string& new_path);

@@ -1,3 +1,6 @@
+// SHA-256 (FIPS 180-4) of OpenSSL. It serves as a checksum against damage and to tell inputs apart, not
+// against anybody who means harm.
+
 #include "io/common/digest.hpp"
 
 #include "io/common/error.hpp"
@@ -45,9 +48,11 @@ std::string sha256_file(const std::filesystem::path& path)
 {
   std::ifstream file(path, std::ios::binary);
   Sha256 digest;
+  // In parts of 1 MB, so that a file of any size can be digested.
   std::vector<char> buffer(1 << 20);
   while (file.read(buffer.data(), std::streamsize(buffer.size())) || file.gcount() > 0)
     digest.add({buffer.data(), std::size_t(file.gcount())});
+  // A file that cannot be opened ends here as well.
   if (!file.eof())
     throw Error(exit_code::input_missing,
                 path.string() + ": cannot be read; check the path and its permissions");

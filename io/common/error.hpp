@@ -25,6 +25,7 @@ struct Error : std::runtime_error
 {
   int code; ///< one of `exit_code`
 
+  /// `what` is a whole sentence for the user, without a line end.
   Error(int code, const std::string& what) : std::runtime_error(what), code(code) {}
 };
 } // namespace mpm

@@ -1,3 +1,7 @@
+// `mpm-static <(generate)` or a case on a device would wait for ever, or never end: inputs are regular files.
+// They are looked at before they are opened and once more after it, in case the name has come to mean
+// something else.
+
 #include "io/common/input_file.hpp"
 
 #include "io/common/descriptor.hpp"
@@ -14,12 +18,14 @@ namespace mpm
 {
 namespace
 {
+/// An open file, or why there is none.
 struct Opened
 {
   Descriptor file;
   std::string problem;
 };
 
+/// What a thing is that is no regular file, and what to do.
 std::string kind_of(mode_t mode)
 {
   if (S_ISDIR(mode)) return "is a folder; name a file in it";
@@ -56,6 +62,8 @@ InputText read_input(const std::filesystem::path& path, std::size_t most)
   std::string text;
   for (;;)
   {
+    // In parts of 1 MB, and not by the size that the file claims: that of /proc is 0, and another may be
+    // growing.
     const std::size_t had = text.size(), want = std::size_t(1) << 20;
     text.resize(had + want);
     const ssize_t count = ::read(opened.file.fd, text.data() + had, want);

@@ -1,3 +1,6 @@
+// What the kernel and the limits around this process say, as files of /proc and of the control groups. A
+// machine in a container reports the host's memory in /proc/meminfo, so that all of them have to be asked.
+
 #include "io/common/memory.hpp"
 
 #include <fmt/format.h>
@@ -46,6 +49,7 @@ double left_in_groups()
     if (!old && !controllers.empty()) continue;
     const std::filesystem::path root = old ? "/sys/fs/cgroup/memory" : "/sys/fs/cgroup";
     std::filesystem::path group = std::filesystem::path(line.substr(second + 1)).relative_path();
+    // A group is limited by those around it too.
     for (;; group = group.parent_path())
     {
       const auto at = root / group;
@@ -63,6 +67,7 @@ double left_of_limit(int resource, const std::string& used)
   rlimit limit{};
   if (getrlimit(static_cast<__rlimit_resource>(resource), &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
     return unlimited;
+  // Limits are of address space, of which a part is taken already.
   const double taken = entry("/proc/self/status", used);
   return std::max(0.0, static_cast<double>(limit.rlim_cur) - (taken < unlimited ? taken : 0));
 }

@@ -1,4 +1,6 @@
 #pragma once
+// How much memory there is for a run. Asked before it begins: a process that takes too much is killed without
+// a word.
 
 #include <string>
 

@@ -1,3 +1,5 @@
+// In a handler only few calls are safe (signal-safety(7)): setting a flag, write() and _exit() are.
+
 #include "io/common/signals.hpp"
 
 #include "io/common/error.hpp"
@@ -28,6 +30,7 @@ void handle(int signal, void (*handler)(int))
 {
   struct sigaction action = {};
   action.sa_handler = handler;
+  // A write that a signal interrupts goes on by itself.
   action.sa_flags = SA_RESTART;
   sigemptyset(&action.sa_mask);
   sigaction(signal, &action, nullptr);
@@ -44,6 +47,7 @@ bool is_ignored(int signal)
 void install_signal_handlers()
 {
   for (const int signal : {SIGTERM, SIGINT, SIGUSR1, SIGUSR2, SIGXCPU}) handle(signal, request_interruption);
+  // nohup sets it to be ignored: a run that was started so outlives its terminal.
   if (!is_ignored(SIGHUP)) handle(SIGHUP, request_interruption);
   for (const int signal : {SIGPIPE, SIGXFSZ}) handle(signal, SIG_IGN);
 }

@@ -1,4 +1,6 @@
 #pragma once
+// Signals that ask for an end. A handler may do next to nothing, so that it only leaves a note for the time
+// loop.
 
 namespace mpm
 {
@@ -8,5 +10,6 @@ namespace mpm
 void install_signal_handlers();
 /// From here on these signals ask the run to stop at the end of a step; asking again changes nothing.
 void stop_at_a_step();
+/// Whether one has come; the time loop asks after every step.
 bool interruption_requested();
 } // namespace mpm

@@ -1,3 +1,6 @@
+// Words that are meant and not known are nearly always another known word with a slip of the finger, or its
+// beginning.
+
 #include "io/common/suggestion.hpp"
 
 #include <algorithm>
@@ -15,6 +18,8 @@ int edit_distance(std::string_view a, std::string_view b)
 {
   std::vector<int> before, last, row(b.size() + 1);
   std::iota(row.begin(), row.end(), 0);
+  // Row i holds the distances of the first i letters of `a` to every beginning of `b`; two rows back is
+  // enough.
   for (std::size_t i = 1; i <= a.size(); ++i)
   {
     before = std::exchange(last, row);
@@ -36,6 +41,7 @@ std::string nearest(std::string_view wrong, const std::vector<std::string>& name
   int least = std::numeric_limits<int>::max();
   for (const std::string& name : names)
   {
+    // "spac" is meant for "spacing", however many letters are missing.
     const bool part = wrong.size() > 2 && (name.starts_with(wrong) || wrong.starts_with(name));
     const int distance = part ? 1 : edit_distance(wrong, name);
     const int most = std::max(1, static_cast<int>(std::max(wrong.size(), name.size())) / 3);

@@ -1,3 +1,7 @@
+// Four may say what the values are: the header, the file's extension, the case, and the quantity asked for. A
+// wrong unit is the commonest and the most expensive mistake with records, a factor of 981 between g and gal,
+// so that any two of them that differ are refused.
+
 #include "io/records/statements.hpp"
 
 #include <cmath>
@@ -23,6 +27,7 @@ void check_header(const RecordSource& source, const Said& said, const std::optio
     refuse(source, said.line,
            "states the unit " + shown(said.unknown) + ", which is not known; write it as " +
                std::string(offered_units));
+  // "ACCELERATION IN CM/S"
   if (said.unit && said.quantity && said.unit->quantity != *said.quantity)
     refuse(source, said.line,
            "the header calls it " + std::string(name_of(*said.quantity)) + " in " + said.unit->name +
@@ -39,6 +44,7 @@ void check_header(const RecordSource& source, const Said& said, const std::optio
 RecordUnit agreed_unit(const RecordSource& source, const Said& said,
                        const std::optional<RecordUnit>& by_extension)
 {
+  // The case may add to what the file says, and repeat it, but not change it.
   const auto given = source.unit.empty() ? std::nullopt : parse_unit(source.unit);
   if (!source.unit.empty() && !given)
     refuse(source, "unknown unit '" + source.unit + "'; use " + std::string(offered_units));
@@ -50,6 +56,7 @@ RecordUnit agreed_unit(const RecordSource& source, const Said& said,
   const auto of_file = said.unit ? said.unit : by_extension;
   const auto unit = given ? given : of_file;
   if (!unit) refuse(source, "its unit is not in the file; give unit, e.g. unit: g");
+  // "gal" in a title states nothing, but nobody writes it above values in g.
   if (!said.unit && said.mention && !(said.mention->unit == *unit))
     refuse(source, said.mention->line,
            "names " + said.mention->unit.name + ", and the unit is taken to be " + unit->name +
@@ -68,6 +75,7 @@ RecordUnit agreed_unit(const RecordSource& source, const Said& said,
 double agreed_dt(const RecordSource& source, const Line& line, double dt, double tolerance)
 {
   if (std::isnan(source.dt)) return dt;
+  // The case's number is taken: the file's may have been rounded in print.
   if (!(std::abs(dt - source.dt) <= tolerance * dt))
     refuse(source, line,
            "the file's dt is " + number(dt) + " s and the case says " + number(source.dt) +
@@ -78,6 +86,7 @@ double agreed_dt(const RecordSource& source, const Line& line, double dt, double
 void check_steps(const RecordSource& source, const std::vector<Line>& lines, double dt)
 {
   for (const SaidStep& step : steps_said_by(lines))
+    // A word behind the number that is no unit makes it another thing: "dt = 0.01 approx".
     if (step.unknown.empty() && !(std::abs(step.seconds - dt) <= 1e-3 * dt))
       refuse(source, step.line,
              "states a time step of " + number(step.seconds) + " s, and the file's is " + number(dt) +

@@ -20,6 +20,7 @@ Channel channel_of(const RecordSource& source, Lines lines, std::size_t start)
   const auto unit = parse_unit(text_behind(units.text, "SECONDS AND "));
   if (!name.starts_with("COMP") || !unit)
     refuse(source, units, "is not UNITS ARE SECONDS AND G/10 below a line COMP, as BHRC's files have it");
+  // The rate stands among the reals, the number of points and the duration in the text: they have to fit.
   const std::size_t count = count_behind(source, points, "NO. OF POINTS");
   const auto duration = number_behind(points.text, "DURATION");
   std::string_view real = bare(rate_line.text);

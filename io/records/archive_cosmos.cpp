@@ -39,6 +39,7 @@ Channel channel_of(const RecordSource& source, Lines lines, std::size_t at, cons
   if (!unit)
     refuse(source, line,
            "states the unit " + shown(stated) + ", which is not known; give a corrected record");
+  // The unit stands twice, as a word and as a code of the format: some writers filled in only one of them.
   constexpr std::array<std::pair<std::string_view, std::string_view>, 3> codes{
       std::pair{"(04)", "cm/s2"}, {"(05)", "cm/s"}, {"(06)", "cm"}};
   for (const auto& [code, name] : codes)
@@ -50,6 +51,7 @@ Channel channel_of(const RecordSource& source, Lines lines, std::size_t at, cons
     refuse(
         source, line,
         "is a COSMOS record without number of values, format or time step (real header 62); fetch it again");
+  // The length stands twice as well, to the sample in the reals and in round seconds in the text.
   const auto seconds = number_behind(line.text, "approx");
   for (const auto& [last, slack] :
        {std::pair{length, 1.5 * step + 1e-3}, {seconds.value_or(unknown), 1.5 * step + 1}})
@@ -61,11 +63,13 @@ Channel channel_of(const RecordSource& source, Lines lines, std::size_t at, cons
   Channel channel{std::move(component), *unit, step, at,
                   fixed_numbers(source, lines, body, std::size_t(*count), format->width, format->per_line)};
   check_end(source, lines, body);
+  // Real header 64: the greatest value, in the unit of the values.
   if (reals[63] != unknown) channel.peak = reals[63];
   if (channel.peak) channel.peak_tolerance = 1e-3 * std::abs(*channel.peak) + 1e-4;
   return channel;
 }
 
+/// The numbers of a header block whose first line, at `at`, tells how many there are and in which format.
 std::vector<double> header_numbers(const RecordSource& source, Lines lines, std::size_t& at)
 {
   const std::size_t start = at++;
@@ -93,6 +97,7 @@ Record read_cosmos(const RecordSource& source, Lines lines)
   for (std::size_t at = 0; at < lines.size(); ++at)
   {
     const std::string text = lower(lines[at].text);
+    // A block of text begins a channel; reals and values that follow are its own.
     if (text.find("(format v") != text.npos)
     {
       component = component_of(lines.subspan(at, std::min<std::size_t>(13, lines.size() - at)));
@@ -100,6 +105,7 @@ Record read_cosmos(const RecordSource& source, Lines lines)
     }
     else if (text.find("real-header values follow") != text.npos)
     {
+      // The loop goes on behind the block.
       reals = header_numbers(source, lines, at);
       --at;
     }

@@ -25,6 +25,7 @@ void read_heading(const Line& line, Heading& heading)
     heading.component = text;
     return;
   }
+  // As they are printed, blanks included.
   constexpr std::array<std::string_view, 3> peaks{"peak acceleration", "peak   velocity",
                                                   "peak displacement"};
   for (std::size_t i = 0; i < peaks.size(); ++i)
@@ -33,6 +34,7 @@ void read_heading(const Line& line, Heading& heading)
   if (text.starts_with("No. of Points")) heading.points = number_behind(text, "=");
 }
 
+/// The line above the values: how many, their step in s, their unit. 0: it does not tell.
 struct DataLine
 {
   double count, dt;
@@ -45,6 +47,7 @@ std::optional<DataLine> data_line(const Line& line)
 {
   const std::string text = lower(line.text);
   std::string_view rest = bare(line.text);
+  // Volume 2 tells an interval, volume 1 a rate.
   const bool corrected = text.find("points of ") != text.npos && text.find("equally spaced at") != text.npos;
   const bool uncorrected = text.find("accelerogram points at") != text.npos;
   if (!corrected && !uncorrected) return {};
@@ -57,6 +60,7 @@ std::optional<DataLine> data_line(const Line& line)
   return DataLine{*count, corrected ? *spacing : 1 / *spacing, unit};
 }
 
+/// The values below a data line at `at`, which moves to their last line.
 Channel channel_of(const RecordSource& source, Lines lines, std::size_t& at, const DataLine& data,
                    const Heading& heading)
 {
@@ -74,6 +78,7 @@ Channel channel_of(const RecordSource& source, Lines lines, std::size_t& at, con
   Channel channel{heading.component, *unit, data.dt, start,
                   fixed_numbers(source, lines, at, std::size_t(data.count), format->width, format->per_line)};
   check_end(source, lines, at--);
+  // Peaks are in the order of Quantity.
   channel.peak = heading.peak[static_cast<int>(unit->quantity)];
   if (!channel.peak) return channel;
   *channel.peak /= unit->si;
@@ -95,11 +100,13 @@ Record read_csmip(const RecordSource& source, Lines lines)
   Heading heading;
   for (std::size_t at = 0; at < lines.size(); ++at)
   {
+    // What ends a channel: the heading of the next one owes nothing to this.
     if (lines[at].text.starts_with("/&")) heading = {};
     read_heading(lines[at], heading);
     const auto data = data_line(lines[at]);
     if (!data) continue;
     Channel channel = channel_of(source, lines, at, *data, heading);
+    // Volume 2 has velocity and displacement of each channel below its acceleration.
     if (channel.unit.quantity != source.quantity.value_or(Quantity::acceleration)) continue;
     components.push_back(channel.component);
     channels.push_back(std::move(channel));

@@ -11,6 +11,7 @@ namespace mpm::records
 {
 namespace
 {
+/// The line that begins with a key of the header, "#SampleRate(Hz):".
 const Line& keyed(const RecordSource& source, Lines lines, std::string_view key)
 {
   const auto found =
@@ -31,6 +32,7 @@ std::vector<std::string> components_of(const RecordSource& source, Lines lines)
   std::vector<std::string> names;
   for (std::string_view cell : cells_of(rest, ";,"))
   {
+    // A component of the other sign would move the slope the other way.
     const std::size_t sign = cell.find("(+)");
     if (sign == cell.npos || sign == 0)
       refuse(source, line,
@@ -40,6 +42,7 @@ std::vector<std::string> components_of(const RecordSource& source, Lines lines)
   return names;
 }
 
+/// The number above zero behind a key.
 double number_of(const RecordSource& source, Lines lines, std::string_view key)
 {
   const Line& line = keyed(source, lines, key);
@@ -61,6 +64,7 @@ std::vector<double> column_of(const RecordSource& source, Lines lines, std::size
     if (row.size() != columns)
       refuse(source, line,
              "expected " + std::to_string(columns) + " numbers and found " + std::to_string(row.size()));
+    // Times are printed to a millisecond; off by more, a line is missing or double.
     if (!(std::abs(row[0] - dt * double(values.size())) <= 0.1 * dt + 5e-4))
       refuse(source, line, "its time is off an even step of " + number(dt) + " s; fetch it again");
     values.push_back(row[column]);
@@ -101,6 +105,7 @@ Record read_cwb(const RecordSource& source, Lines lines)
     refuse(source, unit_line, "states the unit " + shown(stated) + "; CWB's files are in gal");
   Channel channel{components[chosen], *unit, 1 / rate, std::size_t(&unit_line - lines.data()),
                   column_of(source, lines, chosen + 1, components.size() + 1, 1 / rate)};
+  // The length may count the intervals or the samples.
   const double beyond = double(channel.values.size()) - rate * length; // 1: with both ends
   if (beyond < -0.01 || beyond > 1.01)
     refuse(source, keyed(source, lines, "#RecordLength(sec):"),

@@ -8,6 +8,7 @@ namespace mpm::records
 {
 namespace
 {
+/// "KEY: value" lines.
 struct Header
 {
   const RecordSource& source;
@@ -25,6 +26,7 @@ struct Header
     if (!line) refuse(source, "has no " + std::string(key) + " in its header; fetch it again");
     return bare(line->text.substr(key.size() + 1));
   }
+  /// Empty where the key is missing or has no value.
   std::optional<double> number(std::string_view key) const
   {
     const Line* line = find(key);
@@ -59,6 +61,7 @@ bool is_esm(std::string_view head, Lines)
 Record read_esm(const RecordSource& source, Lines lines)
 {
   std::size_t body = 0;
+  // Keys with values, until the first line that is none.
   while (body < lines.size() && !lines[body].text.empty() && is_letter(lines[body].text[0]) &&
          lines[body].text.find(':') != std::string_view::npos)
     ++body;
@@ -82,6 +85,7 @@ Record read_esm(const RecordSource& source, Lines lines)
     refuse(source, ndata,
            "NDATA is " + number(*count) + ", and the file holds " + std::to_string(values.size()) +
                " values; fetch it again");
+  // Printed to a hundredth of a second, and with or without the last interval.
   const auto duration = header.number("DURATION_S");
   if (duration && std::abs(*duration - *dt * *count) > 1.5 * *dt + 0.0051)
     refuse(source, ndata,
@@ -89,6 +93,7 @@ Record read_esm(const RecordSource& source, Lines lines)
                " s last otherwise; fetch it again");
   Channel channel{component, unit_of(source, header), *dt, std::size_t(&ndata - lines.data()),
                   std::move(values)};
+  // Peaks are in cm whatever the unit of the values.
   const std::string_view key = channel.unit.quantity == Quantity::acceleration ? "PGA_CM/S^2"
                                : channel.unit.quantity == Quantity::velocity   ? "PGV_CM/S"
                                                                                : "PGD_CM";

@@ -23,6 +23,7 @@ Channel channel_of(const RecordSource& source, Lines lines, std::size_t start)
   if (lines.size() < start + text_lines + number_lines + 1)
     refuse(source, lines.back(), "ends within a header; fetch it again");
   const Lines text = lines.subspan(start, text_lines);
+  // The 16 lines are in no fixed order from year to year; each is known by what it says.
   const Line *points = nullptr, *spacing = nullptr, *component = nullptr, *peak = nullptr;
   for (const Line& line : text)
   {
@@ -43,6 +44,7 @@ Channel channel_of(const RecordSource& source, Lines lines, std::size_t start)
       (raw && lower(spacing->text).find(" mm/s/s ") == std::string::npos))
     refuse(source, *spacing, "is not in mm/s/s at a stated interval, as GeoNet's files are; fetch it again");
   const std::size_t count = count_behind(source, *points, "Number of points");
+  // Points, interval and duration are printed independently of each other.
   const auto duration = number_behind(points->text, "Duration");
   if (!duration || std::abs(*duration - double(count) * *dt) > 1.5 * *dt + 0.01)
     refuse(source, *points,

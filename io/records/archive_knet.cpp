@@ -10,6 +10,7 @@ namespace mpm::records
 {
 namespace
 {
+/// The line of the header with a label, one of the first of the file.
 const Line& labelled(const RecordSource& source, Lines lines, std::string_view label)
 {
   const auto found = std::ranges::find_if(lines.first(std::min<std::size_t>(lines.size(), 30)),
@@ -19,6 +20,7 @@ const Line& labelled(const RecordSource& source, Lines lines, std::string_view l
   return *found;
 }
 
+/// The number above zero behind a label; `end` is the unit printed after it.
 double number_of(const RecordSource& source, Lines lines, std::string_view label, std::string_view end = "")
 {
   const Line& line = labelled(source, lines, label);
@@ -76,15 +78,18 @@ Record read_knet(const RecordSource& source, Lines lines)
   for (const Line& line : lines)
     if (line.number > memo.number)
       for (double count : numbers_at(source, Line{bare(line.text), line.number})) values.push_back(count);
+  // Every line of values ends with a blank, so that a cut within the last number shows.
   const auto ends_blank = [](const Line& line) { return !line.text.empty() && is_blank(line.text.back()); };
   if (ends_blank(lines[lines.size() - 2]) && !ends_blank(lines.back()) && !lines.back().text.empty())
     refuse(source, lines.back(),
            "ends without the blank of the lines above it; fetch it again, it is cut off");
+  // The header counts no samples but tells rate and duration.
   const auto expected = std::size_t(std::llround(rate * duration));
   if (values.size() != expected)
     refuse(source, labelled(source, lines, "Duration Time(s)"),
            "the header announces " + std::to_string(expected) + " values, and the file holds " +
                std::to_string(values.size()) + "; fetch it again");
+  // Counts have an offset of the instrument, which twice integrated would be a drift of kilometres.
   double mean = 0;
   for (double value : values) mean += value / double(values.size());
   for (double& value : values) value = (value - mean) * scale;

@@ -9,6 +9,7 @@ namespace mpm::records
 {
 namespace
 {
+/// What a header holds where it has no value.
 constexpr double missing = 1.7e38; ///< printed as 0.1700000E+39
 
 RecordUnit unit_of(const RecordSource& source, const Line& first)
@@ -57,6 +58,7 @@ Record read_smc(const RecordSource& source, Lines lines)
   for (const Line& line : lines.subspan(at))
     if (!bare(line.text).empty())
       refuse(source, line, "goes on behind its " + number(count) + " values; fetch it again");
+  // Greatest and least value; their times stand beside them.
   if (const double high = reals[29], low = reals[31]; high < missing && low < missing)
   {
     channel.peak = std::max(std::abs(high), std::abs(low));

@@ -1,3 +1,6 @@
+// The table of formats, and what their readers have in common. A reader says what the file says of a
+// component (Channel); that it is in SI, agrees with the case and reaches its stated peak is seen to here.
+
 #include "io/records/archives.hpp"
 
 #include <algorithm>
@@ -7,6 +10,7 @@ namespace mpm::records
 {
 namespace
 {
+/// In the order in which they are tried. Each recognises itself by marks that no other has.
 constexpr std::array table{
     Archive{"knet", "K-NET or KiK-net", is_knet, read_knet},
     Archive{"cosmos", "COSMOS", is_cosmos, read_cosmos},
@@ -34,6 +38,7 @@ constexpr std::array foreign{
     Foreign{"an HTML page", "<html", ""},
 };
 
+/// "N-S" and "north" are one component, as are "E" and "E-W", "Z" and "Up".
 std::string canonical(std::string_view component)
 {
   std::string name = lower(component);
@@ -53,6 +58,7 @@ std::span<const Archive> archives()
 
 const Archive* archive_of(std::string_view text, Lines lines)
 {
+  // 4 KB hold every header's first lines, and a record may be of any length.
   const std::string head = lower(text.substr(0, 4096));
   const auto found =
       std::ranges::find_if(table, [&](const Archive& archive) { return archive.recognise(head, lines); });
@@ -89,6 +95,7 @@ std::size_t chosen_component(const RecordSource& source, const std::vector<std::
       if (is_same(components[i])) found.push_back(i);
     return found;
   };
+  // By its name as a whole; where no component is called so, by a word in its name.
   const std::string asked = canonical(source.component);
   std::vector<std::size_t> found = matches([&](const std::string& name) { return canonical(name) == asked; });
   if (found.empty())
@@ -103,6 +110,8 @@ std::size_t chosen_component(const RecordSource& source, const std::vector<std::
 Record record_of(const RecordSource& source, Lines lines, std::string_view format, Channel channel)
 {
   const Line& line = lines[channel.line];
+  // The peak that archives print is the best check there is: it was computed from the values before they were
+  // sent.
   double peak = 0;
   for (double value : channel.values) peak = std::max(peak, std::abs(value));
   if (channel.peak && std::abs(peak - std::abs(*channel.peak)) > channel.peak_tolerance)
@@ -130,6 +139,7 @@ std::optional<double> number_behind(std::string_view line, std::string_view key)
   const std::size_t end = std::min(rest.find_first_not_of("+-.0123456789"), rest.size());
   std::string_view token = rest.substr(0, end);
   const auto value = take_number(token);
+  // "49.920~s" and "0.01," end a number, "1.2.3" and "5a" do not.
   const bool ends =
       end == rest.size() || is_blank(rest[end]) || std::string_view(",;~").find(rest[end]) != rest.npos;
   return token.empty() && ends ? value : std::nullopt;
@@ -165,6 +175,7 @@ std::vector<double> fixed_numbers(const RecordSource& source, Lines lines, std::
   std::vector<double> values;
   for (; values.size() < count && at < lines.size(); ++at)
   {
+    // Fixed columns, not blanks, part the numbers: "-12345.678-23456.789" are two.
     const std::size_t here = std::min(per_line, count - values.size());
     std::string_view text = lines[at].text;
     for (std::size_t field = 0; field < here; ++field)

@@ -29,6 +29,8 @@ const Archive* archive_of(std::string_view text, Lines lines);
 /// Refuses, by name, formats that are known but not read.
 void refuse_foreign(const RecordSource& source, std::string_view text, Lines lines);
 
+// One pair a format, see Archive.
+
 bool is_knet(std::string_view head, Lines lines);
 Record read_knet(const RecordSource& source, Lines lines);
 bool is_esm(std::string_view head, Lines lines);

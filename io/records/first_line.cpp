@@ -6,6 +6,7 @@ namespace mpm::records
 {
 namespace
 {
+/// With the point; 0 where there is none.
 std::size_t digits_behind_point(std::string_view token)
 {
   const std::size_t point = token.find('.');
@@ -16,6 +17,7 @@ std::size_t digits_behind_point(std::string_view token)
 
 FirstLine first_line(const RecordSource& source, const std::vector<Line>& data)
 {
+  // Only one or two numbers, the first of them whole and not small, or just the number of lines below.
   const auto first = data.size() > 2 ? numbers_in(data[0].text) : std::nullopt;
   if (!first || first->empty() || first->size() > 2) return {};
   const std::vector<double> next = numbers_in(data[1].text).value_or(std::vector<double>{});
@@ -25,6 +27,7 @@ FirstLine first_line(const RecordSource& source, const std::vector<Line>& data)
       first->front() >= 5 && (is_whole(tokens[0]) || (first->size() == 1 && first->front() == double(rest)));
   if (!is_count) return {};
   const std::size_t count = std::size_t(first->front());
+  // Count and step above one column, or above time and value.
   if (first->size() == 2)
   {
     const bool heads = next.size() == 1 || (next.size() == 2 && count == rest && (*first)[1] > 0);
@@ -37,6 +40,8 @@ FirstLine first_line(const RecordSource& source, const std::vector<Line>& data)
     return {count, (*first)[1]};
   }
   if (next.size() != 1) return {};
+  // Counts of an instrument are whole numbers too: then only the right number of lines makes the first a
+  // count.
   const bool others_whole =
       std::all_of(data.begin() + 1, data.end(), [](const Line& l) { return is_whole(l.text); });
   const bool counts = count == rest;
@@ -53,6 +58,7 @@ void refuse_step_as_value(const RecordSource& source, const std::vector<Line>& d
 {
   if (data.size() < 2 || std::isnan(source.dt)) return;
   const auto first = numbers_in(data[0].text);
+  // "0.005" above "0.00012": SHAKE-like decks are often kept with their step on top.
   if (first && first->size() == 1 && first->front() == source.dt &&
       digits_behind_point(data[0].text) != digits_behind_point(data[1].text))
     refuse(source, data[0], "is the time step, not a value; remove the line");

@@ -17,13 +17,14 @@ void refuse_component(const RecordSource& source);
 /// A PEER header.
 struct PeerHeader
 {
-  std::size_t line; ///< index of the line with NPTS and DT
-  std::size_t count;
-  double dt; ///< s
+  std::size_t line;  ///< index of the line with NPTS and DT
+  std::size_t count; ///< NPTS
+  double dt;         ///< s
 };
 /// "NPTS=  4000, DT= .01000 SEC" or "4164    0.0100    NPTS, DT", among the first lines; empty if there is no
 /// such word.
 std::optional<PeerHeader> peer_header(const RecordSource& source, const std::vector<Line>& lines);
+/// The values that a PEER header announces; what follows them has to be padding.
 Record read_peer(const RecordSource& source, const std::vector<Line>& lines, const PeerHeader& header);
 
 /// One column of values, or time and columns of values, below at most one heading. Comments begin with # or

@@ -43,6 +43,7 @@ std::optional<PeerHeader> words_first(const RecordSource& source, const Line& li
   const auto count = take_number(rest);
   const auto step = take_step(line.text.substr(dt_word + 2));
   if (!count || !step) return {};
+  // Words that may follow the step without being its unit.
   constexpr std::array<std::string_view, 8> next{"npts", "units", "unit",   "format",
                                                  "fmt",  "and",   "points", "no"};
   const std::string word = lower(step->unknown);
@@ -100,6 +101,8 @@ std::vector<double> column_beside_time(const RecordSource& source, const Line& l
   if (width < 2 || rows.size() < 8 || !std::all_of(rows.begin(), rows.end() - 1, has_width)) return {};
   std::size_t even = 0;
   for (std::size_t column = 0; column < width; ++column) even += grows_evenly(rows, column);
+  // People put a time column or all three components below PEER's header. Read as running text that would be
+  // noise.
   const bool one_row_a_step = rows.size() == header.count && has_width(rows.back());
   const bool ramp = even == width; // running text of an even ramp
   if (!one_row_a_step && (even == 0 || ramp)) return {};
@@ -136,6 +139,7 @@ void check_padding(const RecordSource& source, const Line& line, const Body& bod
   std::size_t at = 0, beyond = 0;
   for (const auto& row : body.rows)
     for (double value : row) beyond += at++ >= count && value != 0;
+  // A row that occurs twice in a row is no padding but a copy that went wrong.
   bool doubled = false;
   for (std::size_t i = 1; i < body.rows.size() && body.values > count; ++i)
     doubled =
@@ -152,6 +156,7 @@ std::optional<PeerHeader> peer_header(const RecordSource& source, const std::vec
 {
   const Line* candidate = nullptr;
   std::optional<PeerHeader> found;
+  // Old files have the header anywhere in their first lines; a line of numbers ends it.
   for (std::size_t i = 0; i < std::min<std::size_t>(lines.size(), 50); ++i)
   {
     const std::string text = lower(lines[i].text);

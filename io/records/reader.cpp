@@ -96,7 +96,9 @@ Record parse_record(std::string_view text, const RecordSource& source)
     refuse(source, "dt is " + number(source.dt) + " s; give a positive one");
   const std::vector<Line> lines = lines_of(text), whole = whole_lines_of(text);
   if (lines.empty()) refuse(source, "is empty; fetch it again");
+  // Before anything else: a file that was cut off may still be a good record of another length.
   check_last_number(source, text, lines);
+  // A format that the case names has to be the one the file shows.
   const bool archived = std::ranges::find(archives(), source.format, &Archive::key) != archives().end();
   const auto header = archived ? std::nullopt : peer_header(source, lines);
   if (header)
@@ -105,6 +107,7 @@ Record parse_record(std::string_view text, const RecordSource& source)
     refuse(source, lines[header->line],
            "a header with NPTS and DT in what the case calls " + source.format + "; use format: peer");
   }
+  // Named by the case, or never: rows of values are what a damaged file of any other format looks like.
   if (source.format == "shake") return read_rows(source, lines);
   if (const Archive* archive = archive_of(text, whole))
   {
@@ -112,6 +115,7 @@ Record parse_record(std::string_view text, const RecordSource& source)
     refuse(source,
            "looks like " + std::string(archive->title) + "; use format: " + std::string(archive->key));
   }
+  // After all that are read: a mark of another archive may stand in anybody's title.
   refuse_foreign(source, text, whole);
   if (archived)
     refuse(source, "is not of the format " + source.format + " that the case names; use format: auto");

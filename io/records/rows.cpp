@@ -43,6 +43,7 @@ Record read_rows(const RecordSource& source, const std::vector<Line>& lines)
   std::vector<double> values;
   for (std::size_t k = 0; k < rows.size(); ++k)
   {
+    // Only the last row may be short. A longer one is a header line that happens to be all numbers.
     const std::size_t usual = rows.front().size();
     if (rows[k].size() > usual || (rows[k].size() < usual && k + 1 < rows.size()))
       refuse(source, lines[first + k],

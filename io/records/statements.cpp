@@ -1,3 +1,7 @@
+// What prose says of the unit. Headers hold several units, of instruments, peaks and filters beside that of
+// the values, so that each statement is ranked by how surely it speaks of the values, and the surest one
+// decides. One that is as sure and says another unit makes the header contradict itself.
+
 #include "io/records/statements.hpp"
 
 #include "io/records/words.hpp"
@@ -19,6 +23,7 @@ enum Rank
   mentioned,     ///< an acceleration's unit by itself: it may not contradict what the unit is taken to be
 };
 
+/// A unit that a line states, or the words that stand where it should.
 struct Statement
 {
   Rank rank;
@@ -49,6 +54,7 @@ Statement unit_at(std::string_view text, Rank rank, const Line& line)
   { return i < words.size() && std::ranges::find(names, std::string_view(lower(words[i]))) != names.end(); };
   if (is(0, {"s", "sec", "secs", "seconds"}) && is(1, {"and"})) words.erase(words.begin(), words.begin() + 2);
   if (words.empty()) return {rank, {}, {}, line};
+  // Units have blanks in them, "cm / sec / sec": the longest run of words that is one counts.
   const auto first_words = [&](std::size_t n)
   {
     const std::string_view last = words[n - 1];
@@ -66,6 +72,7 @@ Statement unit_at(std::string_view text, Rank rank, const Line& line)
 /// A unit that follows the quantity: "ACCELERATION IN CM/S/S", "Velocity (cm/s)", "ACCELERATION, G".
 void add_after_quantity(std::vector<Statement>& found, const Line& line, std::size_t end)
 {
+  // First a bracket anywhere behind the quantity, then plain words directly behind it.
   std::string_view rest = line.text.substr(end);
   for (std::size_t at = 0; (at = rest.find_first_of("([", at)) != rest.npos; ++at)
   {
@@ -116,6 +123,7 @@ bool is_of_another(std::string_view text)
          text.find("time h") == text.npos && text.find("time s") == text.npos;
 }
 
+// From the surest to the least: each way is tried only where those before it had nothing to go by.
 std::vector<Statement> statements_in(const Line& line)
 {
   std::vector<Statement> found;
@@ -155,6 +163,7 @@ std::optional<Quantity> recorded_quantity(const Line& line)
   return says ? std::optional(word->quantity) : std::nullopt;
 }
 
+/// For messages: the unit, or the words that are none.
 std::string name(const Statement& statement)
 {
   return statement.unit ? statement.unit->name : shown(statement.unknown);
@@ -165,6 +174,7 @@ Said said_by(const RecordSource& source, const std::vector<Line>& lines)
 {
   Said said;
   std::vector<Statement> all;
+  // All lines first: the surest statement may be the last.
   for (const Line& line : lines)
   {
     std::ranges::move(statements_in(line), std::back_inserter(all));
@@ -179,6 +189,7 @@ Said said_by(const RecordSource& source, const std::vector<Line>& lines)
   std::erase_if(all, [](const Statement& s) { return s.rank >= of_another; });
   if (all.empty()) return said;
   const Statement best = *std::ranges::min_element(all, {}, &Statement::rank);
+  // A title that merely holds the word units does not contradict a line that names the quantity.
   for (const Statement& other : all)
   {
     if (other.rank == in_passing && best.rank != in_passing) continue;
@@ -203,6 +214,7 @@ Said said_by_column(const Line& line, std::string_view name)
   Said said{{}, {}, {}, line};
   const std::string text = lower(name);
   if (const auto word = quantity_word(text)) said.quantity = word->quantity;
+  // The last bracket that is a unit: "acc (station 5) (g)".
   for (std::size_t at = 0; (at = name.find_first_of("([", at)) != name.npos; ++at)
   {
     const std::string_view inside = bracket(name.substr(at));
@@ -214,10 +226,12 @@ Said said_by_column(const Line& line, std::string_view name)
   if (said.unit && !hints_at_unit(said.unknown)) said.unknown.clear(); // "acc (station 5) (g)"
   if (said.unit || !said.unknown.empty()) return said;
   if (said.unit = parse_unit(name); said.unit) return said;
+  // "a_g", "acc in g", "acc g": what is behind the last blank or underscore.
   std::size_t tail = std::min(name.find_last_of(" \t_") + 1, name.size()); // npos + 1 is 0
   if (const std::size_t in = behind_in(text); in != text.npos && in > 2) tail = in;
   const std::string_view before = name.substr(0, tail);
   const auto unit = parse_unit(name.substr(tail));
+  // "10 g" and "%_g" are other units than g.
   const bool changed = std::ranges::any_of(before, is_digit) || hints_at_unit(before);
   if (unit && !changed)
     said.unit = unit;

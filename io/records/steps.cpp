@@ -1,3 +1,6 @@
+// Time steps that headers and comments state. They are not needed where a format has a field for the step,
+// but a sentence that says another step is a sign that file and field do not belong together.
+
 #include "io/records/statements.hpp"
 #include "io/records/words.hpp"
 
@@ -13,6 +16,7 @@ std::optional<StatedStep> take_step(std::string_view text, bool rate)
   {
     while (!text.empty() && (is_blank(text[0]) || text[0] == '=' || text[0] == ':')) text.remove_prefix(1);
   };
+  // A unit in brackets before the number: "Sampling interval (ms) 10".
   skip();
   if (const std::string_view inside = bracket(text); !inside.empty())
   {
@@ -20,6 +24,7 @@ std::optional<StatedStep> take_step(std::string_view text, bool rate)
     text.remove_prefix(inside.size() + 2);
     skip();
   }
+  // The number with its exponent, then what stands directly behind it.
   std::size_t end = 0;
   const auto is_at = [&](std::size_t i, std::string_view chars)
   { return i < text.size() && chars.find(text[i]) != std::string_view::npos; };
@@ -29,11 +34,13 @@ std::optional<StatedStep> take_step(std::string_view text, bool rate)
   std::string_view number = text.substr(0, end), rest = text.substr(end);
   const auto value = take_number(number);
   if (!value || !number.empty() || !(*value > 0)) return {};
+  // "1/200" and "10%" are no plain numbers.
   if (!rest.empty() && is_at(end, "/*^%")) return {};
   rest = trimmed(rest);
   std::string_view word = bracket(rest);
   if (word.empty()) word = rest.substr(0, std::min(rest.find_first_of(" \t,;=:)]"), rest.size()));
   const auto behind = parse_step_unit(word);
+  // "(ms) 10 s": two units that are not the same tell nothing.
   if (unit && behind && (unit->rate != behind->rate || unit->per_second != behind->per_second)) return {};
   if (!unit) unit = behind;
   if ((unit ? unit->rate : rate) && *value < 1) return {}; // no sampling rate
@@ -72,6 +79,7 @@ std::vector<SaidStep> steps_said_by(const std::vector<Line>& lines)
   for (const Line& line : lines)
   {
     const std::string text = lower(line.text);
+    // The step of the instrument is not that of the values once they have been resampled.
     constexpr std::array<std::string_view, 4> others{"original", "raw", "recorder", "instrument"};
     if (std::ranges::any_of(others,
                             [&](std::string_view word) { return find_word(text, word) != text.npos; }))

@@ -24,6 +24,7 @@ struct Table
   const Line& named_at() const { return heading ? *heading : lines.front(); }
 };
 
+/// Columns that the case's format has; empty where it leaves it open.
 std::optional<std::size_t> expected_columns(const RecordSource& source)
 {
   if (source.format == "column") return 1;
@@ -33,6 +34,7 @@ std::optional<std::size_t> expected_columns(const RecordSource& source)
 
 void add_row(const RecordSource& source, Table& table, const Line& line, std::optional<std::size_t> expected)
 {
+  // The first row says how many numbers a row has: one that differs is damage.
   std::vector<double> values = numbers_at(source, line);
   const std::size_t columns = expected ? *expected : table.rows.empty() ? values.size() : table.columns();
   if (values.size() != columns)
@@ -59,6 +61,7 @@ Table table_of(const RecordSource& source, const std::vector<Line>& lines, First
     line.text.remove_prefix(std::min(line.text.find_first_not_of("#% \t"), line.text.size()));
     table.comments.push_back(line);
   }
+  // The first line of numbers parts what stands above from the table.
   const auto numbers =
       std::ranges::find_if(data, [](const Line& l) { return numbers_in(l.text).has_value(); });
   for (const Line& line : data)
@@ -67,6 +70,7 @@ Table table_of(const RecordSource& source, const std::vector<Line>& lines, First
   if (numbers == data.end()) refuse(source, "no line of numbers; not a record");
   const auto expected = expected_columns(source);
   const std::size_t columns = numbers_in(numbers->text)->size();
+  // One line above the numbers may be the heading; with more, comments have to say what the columns are.
   if (numbers == data.begin() + 1)
     if (table.names = names_in(data.front().text, columns); !table.names.empty())
     {
@@ -140,6 +144,7 @@ std::optional<StepUnit> time_unit(const RecordSource& source, const Table& table
   const std::size_t open = name.find_first_of("([");
   std::string_view inside = open == name.npos ? "" : name.substr(open + 1);
   inside = inside.substr(0, inside.find_first_of(")]"));
+  // "t_ms", "time in ms", "time, ms"
   for (std::string_view joint : {"_", " in ", ","})
     if (const std::size_t at = name.rfind(joint); inside.empty() && at != name.npos)
       inside = name.substr(at + joint.size());
@@ -159,6 +164,7 @@ std::optional<StepUnit> time_unit(const RecordSource& source, const Table& table
 /// of it.
 double even_step(const RecordSource& source, const Table& table)
 {
+  // The median step is right even where some are not, and the first that differs from it can be named.
   const auto& rows = table.rows;
   std::vector<double> steps;
   for (std::size_t i = 1; i < rows.size(); ++i) steps.push_back(rows[i][0] - rows[i - 1][0]);
@@ -171,6 +177,7 @@ double even_step(const RecordSource& source, const Table& table)
              "time goes from " + number(rows[i][0]) + " to " + number(rows[i + 1][0]) +
                  " s where others step by " + number(typical) +
                  " s; resample the record evenly (first column: time in s, with decimal points)");
+  // From the whole length, which rounding in print changes least.
   const double dt = (rows.back()[0] - rows.front()[0]) / double(steps.size());
   for (std::size_t i = 0; i < rows.size(); ++i)
     if (std::abs(rows[i][0] - rows[0][0] - dt * double(i)) > 0.1 * dt)
@@ -185,6 +192,7 @@ double step_of(const RecordSource& source, const Table& table)
 {
   const auto unit = time_unit(source, table);
   const double step = even_step(source, table);
+  // Whole numbers that step by one are an index or samples, hardly seconds: strong motion at 1 Hz is none.
   if (!unit && step > 0.99 &&
       std::ranges::all_of(table.rows, [](const auto& row) { return row[0] == std::floor(row[0]); }))
     refuse(source, table.lines.front(),
@@ -208,6 +216,7 @@ std::size_t column_of(const RecordSource& source, const Table& table)
                "values one after the other");
   std::string all;
   std::size_t found = 0, matches = 0;
+  // The first column is the time.
   for (std::size_t column = 1; column < columns; ++column)
   {
     all += (all.empty() ? "" : ", ") + std::string(table.names[column]);

@@ -1,3 +1,6 @@
+// Lines and numbers as people, Fortran and spreadsheets write them. A number is taken whole or not at all:
+// one that runs into anything else ("1.2.3", "0,5", "12:30") is damage or another thing, and has to be seen.
+
 #include "io/records/text.hpp"
 
 #include "io/common/error.hpp"
@@ -82,6 +85,7 @@ std::string number(double value)
 
 std::vector<Line> whole_lines_of(std::string_view text)
 {
+  // The mark with which Windows begins UTF-8.
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   std::vector<Line> lines;
   for (int number = 1; !text.empty(); ++number)
@@ -129,6 +133,7 @@ bool is_border(std::string_view text)
 }
 } // namespace
 
+// By hand, since neither strtod nor from_chars reads what Fortran writes: ".5", "5.", "1.0D-3", "1.234-103".
 std::optional<double> take_number(std::string_view& text)
 {
   std::size_t end = text.starts_with('+') || text.starts_with('-') ? 1 : 0;
@@ -158,6 +163,7 @@ std::optional<double> take_number(std::string_view& text)
   const char* const last = token.data() + token.size();
   double value = 0;
   const auto [stop, status] = std::from_chars(first, last, value);
+  // "1e-400" is 0 for every purpose here.
   const bool underflow = status == std::errc::result_out_of_range && token.find("e-") != std::string::npos;
   if (stop != last || (status != std::errc{} && !underflow)) return {};
   text.remove_prefix(end);
@@ -171,6 +177,7 @@ void skip_separator(std::string_view& text)
   while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
 }
 
+// "1, 2 3": separators of two kinds on one line are a sign of decimal commas, "0,5 1".
 std::optional<std::vector<double>> numbers_in(std::string_view text)
 {
   std::vector<double> values;
@@ -199,6 +206,7 @@ std::vector<double> numbers_at(const RecordSource& source, const Line& line)
   refuse(source, line, "expected numbers and found " + shown(line.text) + "; mend or remove the line");
 }
 
+// It is no line of numbers as it stands, and is one with points in the place of its commas.
 bool has_decimal_commas(std::string_view text)
 {
   if (text.find(',') == std::string_view::npos || numbers_in(text)) return false;
@@ -253,6 +261,8 @@ std::vector<std::string_view> cells_of(std::string_view text, std::string_view s
 
 std::vector<std::string_view> names_in(std::string_view text, std::size_t columns)
 {
+  // A separator that gives as many names as there are columns; blanks last, because names have blanks in
+  // them.
   for (std::string_view separators : {",", ";", "\t"})
   {
     std::vector<std::string_view> cells = cells_of(text, separators);

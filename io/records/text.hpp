@@ -13,11 +13,14 @@ namespace mpm::records
 /// A line of a record.
 struct Line
 {
-  std::string_view text;
-  int number;
+  std::string_view text; ///< a part of the record's text, which has to outlive it
+  int number;            ///< in the file, from 1
 };
 
+// In ASCII, whatever the locale: headers are compared in lower case.
+
 std::string lower(std::string_view text);
+/// Blanks and tabs; line ends never occur within a line.
 bool is_blank(char c);
 bool is_digit(char c);
 bool is_letter(char c);
@@ -44,6 +47,7 @@ std::vector<Line> whole_lines_of(std::string_view text);
 /// if there is none, or if it runs into something other than a blank, a separator, a bracket or the sign of
 /// the next number.
 std::optional<double> take_number(std::string_view& text);
+/// Takes blanks and at most one comma or semicolon off the front.
 void skip_separator(std::string_view& text);
 /// All numbers of a line, between separators of one kind; empty if anything in it is not a number.
 std::optional<std::vector<double>> numbers_in(std::string_view text);

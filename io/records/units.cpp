@@ -1,3 +1,6 @@
+// A unit is cut into words and signs, and these are compared: there are too many spellings for a list.
+// Whoever writes another one is told the list of those that are offered.
+
 #include "io/records/units.hpp"
 
 #include "io/records/text.hpp"
@@ -10,6 +13,7 @@ namespace mpm::records
 {
 namespace
 {
+/// A unit of length and what it is called.
 struct Length
 {
   std::string_view symbol;
@@ -27,6 +31,7 @@ constexpr std::array lengths{
     Length{"ft", 0.3048, {"ft", "foot", "feet", "ft", "ft"}},
 };
 
+/// Units that are not made of length and time.
 struct Whole
 {
   std::string_view word;
@@ -54,6 +59,7 @@ std::string plain(std::string_view text)
     for (std::size_t at = 0; (at = out.find(from, at)) != std::string::npos; at += to.size())
       out.replace(at, from.size(), to);
   };
+  // In UTF-8: raised 2 and 1, middle dot, micro sign, Greek mu, raised minus, minus, dot operator.
   replace("\xC2\xB2", "2");
   replace("\xC2\xB9", "1");
   replace("\xC2\xB7", "*");
@@ -62,6 +68,7 @@ std::string plain(std::string_view text)
   replace("\xE2\x81\xBB", "-");
   replace("\xE2\x88\x92", "-");
   replace("\xE2\x8B\x85", "*");
+  // In Latin-1: raised 2, middle dot.
   replace("\xB2", "2");
   replace("\xB7", "*");
   replace("**", "^");
@@ -77,6 +84,7 @@ std::vector<std::string> tokens_of(std::string_view text)
   for (std::size_t at = 0; at < all.size();)
   {
     const std::size_t start = at;
+    // Letters, digits or a single sign: "cm/s2" is cm, /, s, 2.
     if (is_letter(all[at]))
       while (at < all.size() && is_letter(all[at])) ++at;
     else if (is_digit(all[at]))
@@ -107,6 +115,7 @@ int time_power(std::vector<std::string> tokens)
   std::erase_if(tokens, [](const std::string& t)
                 { return t == "^" || t == "(" || t == ")" || t == "{" || t == "}"; });
   if (tokens.empty()) return 0;
+  // Brackets and carets gone, every spelling of the second s: what is left is one of a few.
   std::string form;
   for (const std::string& token : tokens) form += is_second(token) ? "s" : token;
   if (form == "/s") return 1;
@@ -124,6 +133,7 @@ std::optional<RecordUnit> unit_of_length(const std::vector<std::string>& tokens)
   if (length == lengths.end()) return {};
   const int power = time_power({tokens.begin() + 1, tokens.end()});
   if (power < 0) return {};
+  // A length over no, one or two times is a displacement, a velocity or an acceleration.
   const std::array<std::string_view, 3> over{"", "/s", "/s2"};
   const std::array quantity{Quantity::displacement, Quantity::velocity, Quantity::acceleration};
   return RecordUnit{std::string(length->symbol) + std::string(over[power]), quantity[power], length->si};
@@ -154,6 +164,7 @@ std::optional<RecordUnit> parse_unit(std::string_view text)
   if (tokens.size() == 1 && !percent) return unit;
   if (unit.name != "g") return {};
   if (percent && tokens.size() == 1) return RecordUnit{"%g", Quantity::acceleration, standard_gravity / 100};
+  // "G/10": the unit of BHRC and of others who wanted integers.
   const bool power_of_ten = tokens.size() == 3 && tokens[1] == "/" &&
                             (tokens[2] == "10" || tokens[2] == "100" || tokens[2] == "1000");
   if (percent || !power_of_ten) return {};

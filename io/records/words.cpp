@@ -1,3 +1,7 @@
+// Headers are written by people: "Acceleration time history in units of g", "Component: N45E (corrected)".
+// What is looked for in them are single words, whole and in any case, never parts of words: "g" occurs in
+// every line.
+
 #include "io/records/words.hpp"
 
 #include <algorithm>
@@ -18,6 +22,7 @@ std::optional<QuantityWord> quantity_word(std::string_view text)
     std::string_view text;
     Quantity quantity;
   };
+  // Where a line names two, as "acceleration from velocity", the first of this list counts.
   using enum Quantity;
   constexpr std::array words{Word{"acceleration", acceleration},
                              Word{"accelerations", acceleration},
@@ -37,6 +42,8 @@ std::optional<QuantityWord> quantity_word(std::string_view text)
   return {};
 }
 
+// A full stop ends a phrase only before a blank: "cm/s. Filter" but not "0.5". Two blanks in a row are a gap
+// between columns of text.
 std::string_view phrase(std::string_view text)
 {
   text = trimmed(text);
@@ -65,6 +72,7 @@ std::vector<std::string_view> words_of(std::string_view text)
   return words;
 }
 
+// "units of: in g": joints come in any number and order.
 std::string_view without_joints(std::string_view text, bool& joined)
 {
   for (bool again = true; again;)
@@ -85,6 +93,7 @@ std::string_view without_joints(std::string_view text, bool& joined)
   return text;
 }
 
+// The inch is told from the word by what follows: "in/s2" and "in.", but "in g" and "in (g)".
 std::size_t behind_in(std::string_view text)
 {
   const std::string all = lower(text);
@@ -95,58 +104,18 @@ std::size_t behind_in(std::string_view text)
 
 bool is_label(std::string_view text)
 {
-  constexpr std::array<std::string_view, 46> labels{"n",
-                                                    "s",
-                                                    "e",
-                                                    "w",
-                                                    "u",
-                                                    "d",
-                                                    "z",
-                                                    "h",
-                                                    "v",
-                                                    "x",
-                                                    "y",
-                                                    "t",
-                                                    "l",
-                                                    "r",
-                                                    "fn",
-                                                    "fp",
-                                                    "ns",
-                                                    "ew",
-                                                    "ud",
-                                                    "n-s",
-                                                    "e-w",
-                                                    "u-d",
-                                                    "up",
-                                                    "down",
-                                                    "vertical",
-                                                    "vert",
-                                                    "hor",
-                                                    "horizontal",
-                                                    "long",
-                                                    "tran",
-                                                    "longitudinal",
-                                                    "north",
-                                                    "south",
-                                                    "east",
-                                                    "west",
-                                                    "transverse",
-                                                    "radial",
-                                                    "raw",
-                                                    "corrected",
-                                                    "filtered",
-                                                    "uncorrected",
-                                                    "unfiltered",
-                                                    "processed",
-                                                    "deg",
-                                                    "component",
-                                                    "comp"};
+  // Components, then kinds of processing.
+  constexpr std::string_view labels =
+      " n s e w u d z h v x y t l r fn fp ns ew ud n-s e-w u-d up down vertical vert hor horizontal long "
+      "tran "
+      "longitudinal transverse radial north south east west deg component comp "
+      "raw corrected uncorrected filtered unfiltered processed ";
+  // "n45e", an azimuth: a quadrant's letters around digits; "090", an azimuth in degrees.
   return std::ranges::all_of(words_of(bare(text)),
                              [&](std::string_view word)
                              {
                                const std::string name = lower(word);
-                               if (std::ranges::find(labels, std::string_view(name)) != labels.end())
-                                 return true;
+                               if (labels.find(" " + name + " ") != labels.npos) return true;
                                if (std::ranges::all_of(name, is_digit)) return true;
                                return name.size() > 2 &&
                                       std::string_view("ns").find(name[0]) != std::string::npos &&
@@ -155,6 +124,9 @@ bool is_label(std::string_view text)
                              });
 }
 
+// A header that says "PERCENT G" or "COUNTS" states a unit that is not known, which must not be taken for
+// none: then the unit of the extension or of the case would be used in its stead. N/S and the like are no
+// fractions.
 bool hints_at_unit(std::string_view text)
 {
   std::string all = lower(text);

@@ -12,6 +12,7 @@ using Names = std::initializer_list<std::string_view>;
 
 /// Whether lower case text has one of the words.
 bool has_word(std::string_view text, Names words);
+/// What stands between blanks.
 std::vector<std::string_view> words_of(std::string_view text);
 /// The words up to a comma, a full stop, a wide gap or the end of a bracket.
 std::string_view phrase(std::string_view text);
@@ -23,7 +24,7 @@ std::size_t behind_in(std::string_view text);
 
 struct QuantityWord
 {
-  Quantity quantity;
+  Quantity quantity;      ///< the one that the word names
   std::size_t begin, end; ///< of the word in the line
 };
 /// The quantity that lower case text names: "acceleration", "vel"; empty if it names none.

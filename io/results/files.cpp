@@ -1,3 +1,7 @@
+// A result file is written in full beside its name, brought to the disk, and only then given its name:
+// rename() swaps it in one step, so that whoever looks, after a crash too, finds the old file or the new one
+// and never a part. The folder is synced after that, because the name is kept there and not in the file.
+
 #include "io/results/files.hpp"
 
 #include "io/common/descriptor.hpp"
@@ -25,6 +29,8 @@ namespace
 {
 using Bytes = std::span<const std::byte>;
 
+// The seal is a line of text behind the end that HDF5 knows of: HDF5 takes no notice, `tail -c 98` shows it,
+// and `head -c -98 FILE | sha256sum` checks it.
 constexpr std::string_view seal_words = "\nsha256 of all before this line: ";
 constexpr std::size_t digest_length = 64;
 constexpr std::size_t seal_length = seal_words.size() + digest_length + 1;
@@ -44,19 +50,23 @@ std::string seal_of(const std::string& digest)
 /// Whatever stands at `path` goes first: a link there is not written through.
 void write_synced(const fs::path& path, std::initializer_list<Bytes> parts)
 {
+  // O_EXCL then makes sure that the file is new and our own.
   if (::unlink(path.c_str()) != 0 && errno != ENOENT) disk_error(path, errno);
   const Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
   if (file.fd < 0) disk_error(path, errno);
   for (Bytes bytes : parts)
     while (!bytes.empty())
     {
+      // In parts of 256 MB: write() takes no more than 2 GB at once.
       const ssize_t count = ::write(file.fd, bytes.data(), std::min(bytes.size(), std::size_t(1) << 28));
       if (count < 0 && errno != EINTR) disk_error(path, errno);
       if (count > 0) bytes = bytes.subspan(std::size_t(count));
     }
+  // Some file systems tell a full disk only now.
   if (::fsync(file.fd) != 0) disk_error(path, errno);
 }
 
+/// Puts the parts, one after the other, in the place of the file at `path`.
 void replace_file(const fs::path& path, std::initializer_list<Bytes> parts)
 {
   fs::path temporary = path;
@@ -85,8 +95,10 @@ std::string check_seal(const fs::path& path)
 {
   std::ifstream file(path, std::ios::binary);
   std::size_t left = std::size_t(fs::file_size(path));
+  // Not even room for the seal.
   if (left < seal_length) refuse(path, "the file is not complete");
   Sha256 digest;
+  // Read in parts: a state may be larger than the memory that is left.
   std::string part(std::size_t(1) << 20, '\0');
   for (left -= seal_length; left > 0 && file; left -= std::size_t(file.gcount()))
   {

@@ -11,15 +11,16 @@ namespace mpm
 /// Who wrote a file: the root attributes that all our files share.
 struct Provenance
 {
-  std::string program;
+  std::string program; ///< mpm-static or mpm-seismic
   std::string version;
-  std::string git;
-  std::string build;
-  std::string command;
+  std::string git;     ///< commit that was built
+  std::string build;   ///< compiler and options
+  std::string command; ///< as it was typed
   std::string created; ///< UTC, ISO 8601
   std::string host;
 };
 
+/// Now, as ISO 8601 writes it: "2024-05-17T09:30:00Z".
 std::string utc_now();
 std::string host_name();
 /// Writes the attributes of `Provenance`, `schema` ("seismpm-checkpoint/1") and the sign convention.
@@ -30,6 +31,7 @@ void write_provenance(h5::Group& root, const Provenance&, std::string_view schem
 /// was there before stays and `Error` write_failed is thrown. Needs memory for the whole file: so that a full
 /// disk is met by one plain write, with its reason.
 std::string write_file_atomically(const std::filesystem::path&, const std::function<void(h5::File&)>& fill);
+/// The same for a text file, which has no seal.
 void write_text_atomically(const std::filesystem::path&, std::string_view text);
 
 /// What has been renamed and removed in a folder stays so, should the machine stop now. `Error` write_failed.

@@ -12,7 +12,9 @@ namespace mpm
 {
 namespace
 {
+// For pictures 7 digits are enough; the state in full precision is in the checkpoints.
 constexpr h5::WriteOptions small{.compress = true, .as_float = true};
+// VTK_VERTEX of vtkCellType.h
 constexpr std::uint8_t vtk_vertex = 1;
 
 /// Every point is a cell of its own.
@@ -29,7 +31,7 @@ void write_vertices(h5::Group& grid, std::size_t points)
   grid.write("Types", std::vector<std::uint8_t>(points, vtk_vertex), {}, "1", small);
 }
 
-/// Places of the particles in the order of their ids.
+/// Indices of the particles in the order of their ids.
 std::vector<std::size_t> order_of(const Frame& frame, std::size_t points)
 {
   std::vector<std::size_t> order(points);
@@ -51,6 +53,7 @@ std::vector<T> ordered(const std::vector<T>& values, const std::vector<std::size
   return result;
 }
 
+/// A field in the order of the ids, and each of its named components as a field of its own.
 void write_field(h5::Group& data, const Frame::Field& field, const std::vector<std::size_t>& order)
 {
   const std::size_t points = order.size(), width = field.components;

@@ -18,7 +18,7 @@ struct Frame
   {
     std::string name;
     std::string unit;
-    int components = 1;
+    int components = 1;         ///< 1, 3 for vectors as VTK has them, 4 for stresses
     std::vector<double> values; ///< [particle, component]
     /// What the components are called, which ParaView cannot be told: each is written as NAME_COMPONENT too.
     std::vector<std::string> component_names = {};
@@ -30,7 +30,7 @@ struct Frame
   std::vector<double> points; ///< [particle, 3], m; the third is 0
   std::vector<Field> fields;
   std::vector<std::int64_t> ids;       ///< each once; left empty: not written
-  std::vector<std::int64_t> materials; ///< places among the names; left empty: not written
+  std::vector<std::int64_t> materials; ///< indices among the names; left empty: not written
   std::vector<std::string> material_names;
 };
 

@@ -1,3 +1,6 @@
+// Opening and making files and groups. A file is put together in memory and leaves it by one plain write
+// (write_file_atomically), so that a full disk is met by a call that tells the reason.
+
 #include "io/results/hdf5_calls.hpp"
 
 #include <hdf5_hl.h>
@@ -6,8 +9,12 @@ namespace mpm::h5
 {
 namespace
 {
+// By how much the file in memory grows.
 constexpr std::size_t memory_increment = std::size_t(8) << 20;
 
+/// Without HDF5's own messages on stderr and its file locks, which network file systems often lack. The
+/// format is kept to what HDF5 1.10 reads; weakly closed, so that an open group does not make the close of
+/// its file fail.
 Handle file_access()
 {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
@@ -57,6 +64,7 @@ bool Group::exists(const std::string& name) const
 std::vector<std::string> Group::children(const std::string& group) const
 {
   std::vector<std::string> names;
+  // A C function is called for each name; it may not throw.
   const auto take = [](hid_t, const char* name, const H5L_info_t*, void* out) -> herr_t
   {
     static_cast<std::vector<std::string>*>(out)->emplace_back(name);
@@ -74,6 +82,7 @@ Handle Group::dataset(const std::string& name) const
   return {readable(H5Dopen2(group_.id(), name.c_str(), H5P_DEFAULT), where(name)), H5Dclose};
 }
 
+// A second name for the same data: it costs nothing, and reading either is the same.
 void Group::hard_link(const std::string& target, const std::string& link)
 {
   const Handle creation = with_groups_on_the_way();
@@ -85,6 +94,7 @@ void Group::attach_scale(const std::string& dataset_name, const std::string& sca
 {
   const Handle data = dataset(dataset_name);
   const Handle scale = dataset(scale_name);
+  // Its own name is what xarray calls the dimension.
   const std::string axis = std::filesystem::path(scale_name).filename();
   if (H5DSis_scale(scale.id()) <= 0) written(H5DSset_scale(scale.id(), axis.c_str()), where(scale_name));
   written(H5DSattach_scale(data.id(), scale.id(), dimension), where(dataset_name));

@@ -37,6 +37,7 @@ public:
   {
     if (id_ >= 0) close_(id_);
   }
+  /// As HDF5's functions take it; negative: none.
   hid_t id() const { return id_; }
 
 private:
@@ -56,7 +57,9 @@ class Group
 {
 public:
   Group create_group(const std::string& name);
+  /// `Error` bad_input where there is none.
   Group open_group(const std::string& name) const;
+  /// Whether there is a group or dataset of that name.
   bool exists(const std::string& name) const;
   /// Names of the groups and datasets in `group`, sorted.
   std::vector<std::string> children(const std::string& group = ".") const;
@@ -70,12 +73,17 @@ public:
              std::string_view units, WriteOptions = {});
   void write(const std::string& name, std::span<const std::uint8_t>, std::vector<hsize_t> dims,
              std::string_view units, WriteOptions = {});
+  /// A single text, and a list of them, in UTF-8; texts carry no units.
   void write_text(const std::string& name, const std::string& text);
   void write_strings(const std::string& name, const std::vector<std::string>&);
   /// The same bytes under the name of ASCII, as which alone VTK reads them.
   void write_strings_for_vtk(const std::string& name, const std::vector<std::string>&);
 
+  // Reading. `Error` bad_input where a dataset is missing, of another type or damaged.
+
+  /// Extents, the slowest first; empty for a single value.
   std::vector<hsize_t> shape(const std::string& name) const;
+  /// All values in one row, the last dimension fastest; whole numbers too.
   std::vector<double> read_doubles(const std::string& name) const;
   std::vector<std::int64_t> read_ints(const std::string& name) const;
   std::vector<std::uint8_t> read_bytes(const std::string& name) const;
@@ -107,6 +115,7 @@ public:
   std::vector<double> attribute_doubles(const std::string& name, const std::string& of = ".") const;
   std::vector<std::int64_t> attribute_ints(const std::string& name, const std::string& of = ".") const;
 
+  /// A second name for a dataset.
   void hard_link(const std::string& target, const std::string& link);
   /// Makes the dataset `scale` the axis of dimension `dimension` of `dataset`, under the scale's own name.
   void attach_scale(const std::string& dataset, const std::string& scale, unsigned dimension);
@@ -120,7 +129,7 @@ protected:
   Handle group_;
 
 private:
-  struct Numbers;
+  struct Numbers; ///< of any type, for the one function that writes them
   void write_texts(const std::string& name, const std::vector<std::string>&, const Handle& type);
   void write_numbers(const std::string& name, const Numbers&, std::vector<hsize_t> dims,
                      std::string_view units, WriteOptions);
@@ -131,8 +140,8 @@ private:
   Handle dataset(const std::string& name) const;
   Handle open_attribute(const std::string& name, const std::string& of) const;
 
-  std::string file_;
-  std::string path_;
+  std::string file_; ///< for messages
+  std::string path_; ///< of this group in the file
 };
 
 /// An open file and its root group.

@@ -1,3 +1,6 @@
+// HDF5 reports failures as negative numbers and keeps the reason on a stack of its own; here both become an
+// Error.
+
 #include "io/results/hdf5_calls.hpp"
 
 #include <fmt/format.h>
@@ -26,6 +29,7 @@ std::string reason()
 }
 } // namespace
 
+// Not said: what to do. Whoever writes the file knows whether a checkpoint is whole, and says it.
 void write_error(const std::string& where)
 {
   throw Error(exit_code::write_failed, fmt::format("{}: cannot write: {}", where, reason()));
@@ -55,6 +59,7 @@ Handle properties(hid_t kind)
   return {H5Pcreate(kind), H5Pclose};
 }
 
+// "a/b/c" makes a and a/b where they are missing.
 Handle with_groups_on_the_way()
 {
   Handle link = properties(H5P_LINK_CREATE);

@@ -1,3 +1,6 @@
+// Reading trusts nothing: a file that is damaged, or of another program, may claim any size, type or number
+// of values, and has to end in a message that names file and dataset.
+
 #include "io/results/hdf5_calls.hpp"
 
 #include <cstring>
@@ -45,6 +48,8 @@ struct Stored
 };
 
 template <class T>
+/// All values in one row; HDF5 converts them to the type `memory`. Fractions are refused where whole numbers
+/// belong.
 std::vector<T> numbers(const Stored& stored, hid_t memory, bool fractions_too)
 {
   const H5T_class_t kind = H5Tget_class(stored.type().id());
@@ -55,6 +60,7 @@ std::vector<T> numbers(const Stored& stored, hid_t memory, bool fractions_too)
   return values;
 }
 
+/// All texts, of variable length as this program writes them or of a fixed one as others do.
 std::vector<std::string> strings(const Stored& stored)
 {
   const Handle type = stored.type();
@@ -68,6 +74,7 @@ std::vector<std::string> strings(const Stored& stored)
     auto pointers = room_for<char*>(count, stored.where);
     stored.read(type.id(), pointers.data());
     for (const char* text : pointers) texts.emplace_back(text ? text : "");
+    // HDF5 has allocated the texts; they are copied and given back.
     H5Dvlen_reclaim(type.id(), space.id(), H5P_DEFAULT, pointers.data());
     return texts;
   }
@@ -83,6 +90,7 @@ std::vector<std::string> strings(const Stored& stored)
 }
 
 template <class T>
+/// The value of what has to be a single one.
 T only(const std::vector<T>& values, const std::string& where)
 {
   if (values.size() != 1) read_error(where, fmt::format("{} values where one belongs", values.size()));
@@ -130,6 +138,7 @@ std::string Group::read_text(const std::string& name) const
 
 bool Group::has_attribute(const std::string& name, const std::string& of) const
 {
+  // Negative when the object itself is missing: then there is no attribute either.
   return H5Aexists_by_name(group_.id(), of.c_str(), name.c_str(), H5P_DEFAULT) > 0;
 }
 

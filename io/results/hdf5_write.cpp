@@ -1,3 +1,6 @@
+// What is written is little-endian with fixed sizes, whatever the machine, and texts are UTF-8 of variable
+// length, which h5py and xarray read as they are.
+
 #include "io/results/hdf5_calls.hpp"
 
 #include <algorithm>
@@ -7,8 +10,11 @@ namespace mpm::h5
 {
 namespace
 {
+// The checksum is of a chunk, and a chunk is read whole: about 8 MB, so that a damaged byte is found in what
+// is read and a frame of a million particles has a handful.
 constexpr hsize_t chunk_elements = hsize_t(1) << 20;
 
+/// The type of texts, of variable length.
 Handle utf8_string()
 {
   Handle type{H5Tcopy(H5T_C_S1), H5Tclose};
@@ -25,6 +31,7 @@ std::vector<hsize_t> chunk_shape(std::vector<hsize_t> dims)
   return dims;
 }
 
+/// Chunks with a checksum and, if asked, compression; shuffled, since neighbours share their first bytes.
 Handle dataset_layout(const std::vector<hsize_t>& dims, bool compress)
 {
   Handle layout = properties(H5P_DATASET_CREATE);
@@ -41,6 +48,7 @@ Handle dataset_layout(const std::vector<hsize_t>& dims, bool compress)
 }
 } // namespace
 
+/// Numbers in memory, and the types that they have there and in the file.
 struct Group::Numbers
 {
   const void* data;
@@ -122,6 +130,8 @@ void Group::write_strings_for_vtk(const std::string& name, const std::vector<std
   write_texts(name, texts, type);
 }
 
+// Texts have no checksum: HDF5 keeps those of variable length beside the dataset. The file's seal guards
+// them.
 void Group::write_texts(const std::string& name, const std::vector<std::string>& texts, const Handle& type)
 {
   const Handle space = simple_space({texts.size()});
@@ -136,6 +146,7 @@ void Group::write_texts(const std::string& name, const std::vector<std::string>&
     written(H5Dwrite(data.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data()), where(name));
 }
 
+// The one place where attributes are made, after the name of the object that they belong to.
 void Group::put_attribute(const std::string& name, const std::string& of, hid_t type, hid_t memory,
                           const Handle& space, const void* data)
 {
@@ -182,6 +193,7 @@ void Group::attribute(const std::string& name, const std::vector<std::int64_t>& 
                 values.empty() ? nullptr : values.data());
 }
 
+// Of fixed length and without a final zero: VTK compares the bytes.
 void Group::attribute_ascii(const std::string& name, std::string_view value, const std::string& of)
 {
   const Handle type{H5Tcopy(H5T_C_S1), H5Tclose};

@@ -1,3 +1,7 @@
+// A row is added to all series of a clock at once, filled with NaN, so that a series that is not recorded at
+// some time has a hole there instead of being shifted. Saving writes every group with its own `time` and
+// axes: xarray opens a group by itself and knows nothing of its neighbours.
+
 #include "io/results/history.hpp"
 
 #include <fmt/format.h>
@@ -8,11 +12,13 @@ namespace mpm
 {
 namespace
 {
+/// The program calls this class in a way that makes no history: a bug, not bad input.
 [[noreturn]] void misuse(const std::string& path, const std::string& what)
 {
   throw Error(exit_code::bug, fmt::format("history: {}: {}; report this", path, what));
 }
 
+/// The file holds another run's history.
 [[noreturn]] void other_history(const h5::Group& group, const std::string& path, const std::string& what)
 {
   throw Error(exit_code::bad_input, fmt::format("{}: {}; resume with the case that wrote it, or start anew",
@@ -41,6 +47,7 @@ History::Series History::add_series(const std::string& path, const std::string& 
   return all_.size() - 1;
 }
 
+// What a group shares in the file, its clock and its axes, all its series must share here.
 void History::check_new(const Record& record) const
 {
   if (record.clock >= clocks_.size()) misuse(record.path(), "it has no clock");
@@ -89,6 +96,8 @@ void History::truncate(std::size_t rows, Clock clock)
     if (record.clock == clock) record.values.resize(rows * record.width);
 }
 
+// Times and labels are written with the first series of a group and attached as HDF5 dimension scales to
+// every one, which is how netCDF-4, and with it xarray, finds coordinates.
 void History::save_record(h5::Group& group, const Record& record) const
 {
   const std::string time = record.group + "/time";
@@ -113,6 +122,8 @@ void History::save(h5::Group& group) const
   for (const auto& record : all_) save_record(group, record);
 }
 
+// A run can only go on with the series it would have made itself: same names, same axes, same labels in the
+// same order.
 std::vector<double> History::load_times(const h5::Group& group, const Record& record) const
 {
   if (!group.exists(record.path())) other_history(group, record.path(), "it is missing");
@@ -128,6 +139,7 @@ std::vector<double> History::load_times(const h5::Group& group, const Record& re
   return times;
 }
 
+// Into copies first: a file that is refused half way leaves the history as it was.
 void History::load(const h5::Group& group)
 {
   std::vector<std::vector<double>> clocks(clocks_.size());

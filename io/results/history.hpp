@@ -16,8 +16,8 @@ namespace mpm
 /// Named positions along a dimension: {"gauge", {"crest", "toe"}}, {"component", {"x", "y"}}.
 struct Axis
 {
-  std::string name;
-  std::vector<std::string> labels;
+  std::string name;                ///< of the dimension, and of the dataset with its labels
+  std::vector<std::string> labels; ///< one for each index
 };
 
 /// Series are added first, then rows. Series on one clock are sampled together; a group of the file has
@@ -25,9 +25,10 @@ struct Axis
 class History
 {
 public:
-  using Series = std::size_t;
-  using Clock = std::size_t;
+  using Series = std::size_t; ///< handle of a series
+  using Clock = std::size_t;  ///< handle of a clock; 0 is there from the start
 
+  /// A clock for series that are sampled at other times.
   Clock add_clock();
   /// `path` is GROUP/NAME, as "gauges/velocity" or "free_field/left/surface_velocity". Without axes: a
   /// scalar.
@@ -36,7 +37,7 @@ public:
 
   /// Begins the row of a time (s) later than the last one's. What is not recorded in it stays NaN.
   void start_row(double time, Clock clock = 0);
-  /// Fills the last row: as many values as the axes have places, the last axis fastest.
+  /// Fills the last row: as many values as the axes have labels, taken together, the last axis fastest.
   void record(Series, std::span<const double> values);
   void record(Series, double value);
 
@@ -58,7 +59,7 @@ public:
 private:
   struct Record
   {
-    std::string group;
+    std::string group; ///< path in the file
     std::string name;
     std::string unit;
     std::vector<Axis> axes;
@@ -72,7 +73,7 @@ private:
   void save_record(h5::Group&, const Record&) const;
   std::vector<double> load_times(const h5::Group&, const Record&) const;
 
-  std::vector<std::vector<double>> clocks_{1};
-  std::vector<Record> all_;
+  std::vector<std::vector<double>> clocks_{1}; ///< times of the rows, s
+  std::vector<Record> all_;                    ///< in the order in which they were added
 };
 } // namespace mpm

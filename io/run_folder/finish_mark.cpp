@@ -1,3 +1,7 @@
+// That final.h5 exists does not mean that the run is finished: history and summary come after it, and a file
+// may have been damaged since. The mark holds all of them by digest, and is written when they are on the
+// disk.
+
 #include "io/run_folder/finish_mark.hpp"
 
 #include "io/results/files.hpp"
@@ -14,6 +18,7 @@ namespace
 {
 constexpr std::string_view schema = "seismpm-finished/1";
 
+/// Whether the file holds its own digest, see write_file_atomically.
 bool is_sealed(const fs::path& file)
 {
   return file.extension() == ".h5" || file.extension() == ".hdf";
@@ -39,6 +44,7 @@ void write_finish_mark(const fs::path& folder, const std::vector<std::string>& n
     const fs::path file = folder / name;
     try
     {
+      // A file that somebody has changed while the run went on must not get a mark that says it is whole.
       if (is_sealed(file)) open_complete(file);
       files[name] = {{"bytes", fs::file_size(file)}, {"sha256", sha256_file(file)}};
     }
@@ -87,6 +93,7 @@ void remove_finish_mark(const fs::path& folder)
   if (error)
     throw Error(exit_code::write_failed,
                 fmt::format("{}: cannot be removed: {}", (folder / finish_mark).string(), error.message()));
+  // A mark that came back after a crash would stand for files that are being replaced.
   sync_folder(folder);
 }
 } // namespace mpm

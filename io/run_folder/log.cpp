@@ -1,3 +1,7 @@
+// Two ways to show progress: on a terminal one line that is redrawn in place twice a second, elsewhere plain
+// lines every ten seconds, so that the output of a batch job stays short. Messages erase the line and it
+// comes back below them. The file gets the plain lines in either case.
+
 #include "io/run_folder/log.hpp"
 #include "io/common/error.hpp"
 
@@ -22,6 +26,7 @@ using namespace std::chrono_literals;
 
 constexpr auto redraw_every = 500ms;
 constexpr auto print_every = 10s;
+// Back to the first column, and erase to the end of the line (ECMA-48).
 constexpr const char* erase_line = "\r\033[K";
 constexpr std::size_t usual_columns = 80;
 constexpr std::size_t whole = std::numeric_limits<std::size_t>::max();
@@ -33,12 +38,14 @@ bool can_redraw()
   return ::isatty(STDERR_FILENO) && term && *term && std::string_view(term) != "dumb";
 }
 
+/// Of the terminal now: people change it while a run goes on.
 std::size_t columns()
 {
   winsize size{};
   return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : usual_columns;
 }
 
+/// A logger that writes each message out at once: the last one before a crash is the one that is needed.
 std::shared_ptr<spdlog::logger> plain_logger(spdlog::sink_ptr sink, const std::string& pattern)
 {
   auto logger = std::make_shared<spdlog::logger>("", std::move(sink));
@@ -56,6 +63,7 @@ double seconds(std::chrono::steady_clock::duration span)
 std::string short_number(double value)
 {
   if (value == 0) return "0";
+  // Without the zeros of "e+04": the line is short.
   std::string text = fmt::format("{:.1e}", value);
   const std::size_t exponent = text.find('e');
   if (exponent == std::string::npos) return text;
@@ -103,6 +111,7 @@ void Log::say(Level level, const std::string& text)
   const Level least = verbosity_ == Verbosity::verbose  ? Level::detail
                       : verbosity_ == Verbosity::normal ? Level::info
                                                         : Level::warning;
+  // The file takes every level, whatever the screen shows.
   if (level >= least) to_screen(prefix + text, level);
   to_file(prefix + text);
 }
@@ -122,6 +131,7 @@ void Log::to_screen(const std::string& text, Level level)
   (level < Level::warning ? answer_ : screen_)->info(spdlog::string_view_t(text));
 }
 
+// Before the folder is known there is no file; what is said until then keeps its time of day.
 void Log::to_file(const std::string& text)
 {
   if (file_)
@@ -165,6 +175,8 @@ bool Progress::due() const
 
 std::vector<std::string> Progress::parts(const Moment& moment, Clock::time_point now)
 {
+  // Speed since the last line; what is left by the mean speed of this process, which a resumed run has not
+  // begun at zero.
   const double rate = double(moment.step - last_step_) / seconds(now - drawn_);
   const double done = moment.fraction - stage_.first_fraction;
   const double left =
@@ -212,6 +224,7 @@ std::vector<std::string> progress_parts(const StageFacts& stage, const Moment& m
   const auto add = [&parts]<class... Args>(fmt::format_string<Args...> format, Args&&... args)
   { parts.push_back(fmt::format(format, std::forward<Args>(args)...)); };
 
+  // What matters most comes first: a narrow terminal shows the beginning only.
   if (std::isnan(moment.fraction))
     add("{}", stage.name);
   else

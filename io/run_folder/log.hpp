@@ -45,6 +45,8 @@ public:
   /// Appends to the file from here on, so that it tells all runs of a folder.
   void open(const std::filesystem::path& file);
 
+  // Formats as fmt does: log.info("{} particles", count).
+
   template <class... Args>
   void detail(fmt::format_string<Args...> format, Args&&... args)
   {
@@ -87,20 +89,22 @@ private:
     warning,
     error,
   };
+  /// What was said before there was a file, with its time of day.
   struct Kept
   {
     std::chrono::system_clock::time_point when;
     std::string text;
   };
+  /// A message to screen, file and, if it is one, the list of warnings.
   void say(Level, const std::string& text);
   void to_screen(const std::string& text, Level level = Level::info);
   void to_file(const std::string& text);
 
   Verbosity verbosity_;
   bool live_;
-  bool line_shown_ = false;
-  std::shared_ptr<spdlog::logger> screen_, answer_;
-  std::shared_ptr<spdlog::logger> file_;
+  bool line_shown_ = false;                         ///< a live line has to be erased before a message
+  std::shared_ptr<spdlog::logger> screen_, answer_; ///< warnings and errors, and the rest
+  std::shared_ptr<spdlog::logger> file_;            ///< null until open()
   std::vector<Kept> kept_;
   std::vector<std::string> warnings_;
 };
@@ -115,6 +119,7 @@ struct StageFacts
   double first_fraction = 0;
 };
 
+/// How far a run is.
 struct Moment
 {
   double time = 0;     ///< simulated, s
@@ -141,8 +146,8 @@ private:
 
   Log& log_;
   StageFacts stage_;
-  Clock::time_point start_, drawn_, printed_;
-  std::int64_t last_step_;
+  Clock::time_point start_, drawn_, printed_; ///< of this process, of the live line, of the plain one
+  std::int64_t last_step_;                    ///< when the line was drawn last, for the speed
 };
 
 /// "1 h 12 min"

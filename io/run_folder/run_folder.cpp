@@ -31,11 +31,14 @@ std::optional<std::int64_t> number_in(std::string_view name, std::string_view pr
   return std::stoll(std::string(digits));
 }
 
+/// The step in a checkpoint's name, by which the newest is found: the times of files change when they are
+/// copied.
 std::optional<std::int64_t> checkpoint_step(const std::string& name)
 {
   return number_in(name, "checkpoint-", ".h5");
 }
 
+/// What the name of a state that cannot be gone on from ends with. It is kept, for whoever wants to know why.
 constexpr std::string_view aside = ".unusable";
 
 /// How an identity is put together; in every identity.json, under this key.
@@ -122,6 +125,7 @@ void write_identity(const fs::path& path, const RunFolder::Identity& identity)
   write_text_atomically(path, stored.dump(1) + "\n");
 }
 
+/// Null: it is not set.
 const std::string* value_of(const RunFolder::Identity& identity, const std::string& key)
 {
   for (const auto& [name, value] : identity)
@@ -172,6 +176,7 @@ RunFolder::RunFolder(fs::path path, const Identity& identity, bool fresh)
     refuse_link(path_ / "log.txt");
     if (fresh) remove_results();
     check_identity();
+    // Half-written files of a run that was killed: only now is it certain that they are nobody else's.
     for (const auto& file : files_in(path_, is_debris)) fs::remove(file);
   }
   catch (const fs::filesystem_error& failure)
@@ -197,6 +202,8 @@ void RunFolder::lock()
   refuse_link(file);
   lock_ = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
   if (lock_ < 0) cannot_write(file, std::strerror(errno));
+  // Of the open file, not of the process: it goes with a crash, and does not survive in a lock file left
+  // behind.
   if (::flock(lock_, LOCK_EX | LOCK_NB) != 0)
   {
     if (errno != EWOULDBLOCK) return; // a file system without locks
@@ -233,6 +240,7 @@ void RunFolder::check_identity()
     resumed_ = true;
     return;
   }
+  // Results without an identity may be another program's: they are not written over.
   const auto strangers = files_in(path_, is_output);
   if (!strangers.empty())
     taken(path_, fmt::format("it holds {} of an unknown run; start anew with --fresh or choose another --out",
@@ -244,10 +252,12 @@ std::vector<std::string> RunFolder::identity_lines() const
 {
   std::vector<std::string> lines;
   for (const auto& [key, value] : identity_) lines.push_back(key + " = " + value);
+  // Sorted, so that the order in which settings are read may change.
   std::ranges::sort(lines);
   return lines;
 }
 
+// The final state first: it is later than every checkpoint.
 std::vector<fs::path> RunFolder::states() const
 {
   std::vector<fs::path> found = checkpoints();

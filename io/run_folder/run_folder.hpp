@@ -57,13 +57,13 @@ public:
   void prune(std::size_t keep) const;
 
 private:
-  void lock();
-  void check_identity();
-  void remove_results() const;
+  void lock();                 ///< `Error` folder_taken while a live run holds the folder
+  void check_identity();       ///< compares with identity.json, or writes it
+  void remove_results() const; ///< of --fresh
 
   std::filesystem::path path_;
   Identity identity_;
-  int lock_ = -1;
+  int lock_ = -1; ///< descriptor of .lock, which stays open as long as the folder is held
   bool locked_ = false;
   bool resumed_ = false;
 };
