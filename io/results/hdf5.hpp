@@ -86,7 +86,6 @@ public:
   /// All values in one row, the last dimension fastest; whole numbers too.
   std::vector<double> read_doubles(const std::string& name) const;
   std::vector<std::int64_t> read_ints(const std::string& name) const;
-  std::vector<std::uint8_t> read_bytes(const std::string& name) const;
   std::string read_text(const std::string& name) const;
   std::vector<std::string> read_strings(const std::string& name) const;
 

@@ -119,12 +119,6 @@ std::vector<std::int64_t> Group::read_ints(const std::string& name) const
   return numbers<std::int64_t>({data.id(), false, where(name)}, H5T_NATIVE_INT64, false);
 }
 
-std::vector<std::uint8_t> Group::read_bytes(const std::string& name) const
-{
-  const Handle data = dataset(name);
-  return numbers<std::uint8_t>({data.id(), false, where(name)}, H5T_NATIVE_UINT8, false);
-}
-
 std::vector<std::string> Group::read_strings(const std::string& name) const
 {
   const Handle data = dataset(name);

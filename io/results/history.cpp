@@ -88,14 +88,6 @@ void History::record(Series series, double value)
   record(series, std::span(&value, 1));
 }
 
-void History::truncate(std::size_t rows, Clock clock)
-{
-  if (rows >= this->rows(clock)) return;
-  clocks_[clock].resize(rows);
-  for (auto& record : all_)
-    if (record.clock == clock) record.values.resize(rows * record.width);
-}
-
 // Times and labels are written with the first series of a group and attached as HDF5 dimension scales to
 // every one, which is how netCDF-4, and with it xarray, finds coordinates.
 void History::save_record(h5::Group& group, const Record& record) const

@@ -45,8 +45,6 @@ public:
   const std::vector<double>& times(Clock clock = 0) const { return clocks_[clock]; }
   /// All rows of a series, one after the other.
   const std::vector<double>& values(Series series) const { return all_[series].values; }
-  /// Forgets all but the first `rows` rows.
-  void truncate(std::size_t rows, Clock clock = 0);
 
   /// One layout for history.h5 and for a group of the checkpoint.
   void save(h5::Group& group) const;

@@ -237,7 +237,6 @@ void RunFolder::check_identity()
   {
     const std::string what = difference(read_identity(file), identity_);
     if (!what.empty()) taken(path_, what + "; start anew with --fresh or choose another --out");
-    resumed_ = true;
     return;
   }
   // Results without an identity may be another program's: they are not written over.

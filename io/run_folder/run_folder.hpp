@@ -41,8 +41,6 @@ public:
   std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
   /// False on a file system without locks: then nothing keeps a second run out.
   bool locked() const { return locked_; }
-  /// True when the folder already belonged to this run.
-  bool resumed() const { return resumed_; }
 
   /// The identity as sorted lines `key = value`.
   std::vector<std::string> identity_lines() const;
@@ -65,6 +63,5 @@ private:
   Identity identity_;
   int lock_ = -1; ///< descriptor of .lock, which stays open as long as the folder is held
   bool locked_ = false;
-  bool resumed_ = false;
 };
 } // namespace mpm

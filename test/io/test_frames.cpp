@@ -35,7 +35,7 @@ TEST_CASE("a frame is a VTKHDF 1.0 grid with one vertex a particle", "[io]")
   CHECK(grid.read_ints("NumberOfConnectivityIds") == std::vector<std::int64_t>{3});
   CHECK(grid.read_ints("Connectivity") == std::vector<std::int64_t>{0, 1, 2});
   CHECK(grid.read_ints("Offsets") == std::vector<std::int64_t>{0, 1, 2, 3});
-  CHECK(grid.read_bytes("Types") == std::vector<std::uint8_t>{1, 1, 1});
+  CHECK(grid.read_ints("Types") == std::vector<std::int64_t>{1, 1, 1});
   CHECK(grid.shape("Points") == std::vector<hsize_t>{3, 3});
   CHECK(grid.shape("PointData/velocity") == std::vector<hsize_t>{3, 2});
 }

@@ -69,7 +69,7 @@ TEST_CASE("numbers, texts and attributes come back as they were written", "[io]"
   CHECK(particles.attribute_string("units", "stress") == "Pa");
   CHECK(particles.attribute_string("layer", "stress") == "soil");
   CHECK(particles.read_ints("id") == ids);
-  CHECK(particles.read_bytes("flag") == flags);
+  CHECK(particles.read_ints("flag") == std::vector<std::int64_t>(flags.begin(), flags.end()));
   CHECK(particles.children() == std::vector<std::string>{"flag", "id", "stress"});
   CHECK(file.read_text("case") == "name: Hügel\n");
   CHECK(file.read_strings("names") == std::vector<std::string>{"crest", "Fuß", ""});

@@ -124,16 +124,6 @@ TEST_CASE("a row at a time already recorded is refused", "[io]")
   CHECK(code_of([&] { example.history.start_row(0.02); }) == exit_code::bug);
 }
 
-TEST_CASE("truncating forgets the later rows of one clock", "[io]")
-{
-  Example whole, cut;
-  whole.run(0, 4);
-  cut.run(0, 7);
-  cut.history.truncate(4);
-  CHECK(cut.history.values(cut.velocity) == whole.history.values(whole.velocity));
-  CHECK(cut.history.rows(cut.slow) == 4);
-}
-
 TEST_CASE("a value left out of a row reads NaN", "[io]")
 {
   Example example;

@@ -71,11 +71,11 @@ TEST_CASE("a folder is made, and the same run goes on in it", "[io]")
   const TemporaryFolder folder;
   {
     const RunFolder run(folder / "runs/a", soft);
-    CHECK_FALSE(run.resumed());
+    CHECK(run.states().empty());
     CHECK(run.locked());
     put(run / "final.h5", "x");
   }
-  CHECK(RunFolder(folder / "runs/a", soft).resumed());
+  CHECK(RunFolder(folder / "runs/a", soft).states().size() == 1);
 }
 
 TEST_CASE("a folder held by another live run is refused with 73", "[io]")
@@ -127,7 +127,7 @@ TEST_CASE("starting fresh removes our results and nothing else", "[io]")
     put(folder / name, "theirs");
 
   const RunFolder run(folder.path(), stiff, true);
-  CHECK_FALSE(run.resumed());
+  CHECK(run.states().empty());
   CHECK_FALSE(std::filesystem::exists(folder / "final.h5"));
   CHECK_FALSE(std::filesystem::exists(folder / "checkpoint-000000100.h5"));
   CHECK_FALSE(std::filesystem::exists(folder / "frame-00000.hdf"));
