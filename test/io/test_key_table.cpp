@@ -57,6 +57,16 @@ TEST_CASE("the card of io/case lists the keys as the programs do", "[io]")
     FAIL("io/case/README.md: the part between the marks 'keys' has to be\n" << now);
 }
 
+TEST_CASE("the example on the card of io/case is a case, and nothing speaks against it", "[io]")
+{
+  const std::string card = contents(std::filesystem::path(SOURCE_DIR) / "io/case/README.md"),
+                    mark = "```yaml\n";
+  const std::size_t begin = card.find(mark) + mark.size();
+  const std::string example = card.substr(begin, card.find("```", begin) - begin);
+  CHECK(load(example).warnings == std::vector<std::string>{});
+  CHECK(load(example, {}, "fine").grid.spacing == 0.5);
+}
+
 TEST_CASE("every key has a form and a meaning, and is listed once", "[io]")
 {
   const auto keys = case_keys();
