@@ -12,8 +12,11 @@ namespace mpm
 {
 namespace
 {
+// Raised when a case of the old form would mean something else; keys that only got another name are in
+// renamed_keys.hpp.
 constexpr std::string_view schema = "seismpm-case/1";
 
+/// The case as text; `Error` input_missing.
 std::string read_file(const std::filesystem::path& path)
 {
   InputText input = read_input(path, most_of_case);
@@ -30,6 +33,7 @@ void check_schema(Section& root)
     root.error("schema", "is '" + given + "'; this program reads '" + std::string(schema) + "'");
 }
 
+/// `grid`.
 GridSettings read_grid(Section grid)
 {
   GridSettings settings;
@@ -48,6 +52,7 @@ GridSettings read_grid(Section grid)
   return settings;
 }
 
+/// `domain`. That its width is a whole number of cells is seen to where the grid is known, in geometry.cpp.
 Extent read_domain(Section domain, Problems& problems)
 {
   Extent extent;
@@ -75,6 +80,7 @@ double read_courant_number(Section& section, double fallback, std::string_view m
       {.lower = 0, .lower_allowed = false, .upper = stable_courant_number, .reason = reason});
 }
 
+/// `static`.
 StaticSettings read_static(Section section)
 {
   StaticSettings s;

@@ -13,6 +13,7 @@ struct Offset
   double up = 0;
 };
 
+/// What is wrong with the order of a line's points; empty: nothing.
 std::string rising_problem(const Polyline& line)
 {
   // The height is a function of x: overhangs cannot be drawn, vertical faces only nearly.
@@ -23,6 +24,7 @@ std::string rising_problem(const Polyline& line)
   return {};
 }
 
+/// `points` of a surface.
 Polyline read_points(const YamlNode& node, Problems& problems)
 {
   Polyline line;
@@ -53,6 +55,7 @@ void resolve_points(const Section& section, const Polyline& line, Problems& prob
   problems.settings.drop(section.path_of("file"));
 }
 
+/// `gaussian` of a surface.
 GaussianHill read_hill(Section section)
 {
   GaussianHill hill;
@@ -69,6 +72,7 @@ GaussianHill read_hill(Section section)
 
 constexpr std::string_view one_of_four = "none, but one of points, offset, file and gaussian is required";
 
+/// One of `surfaces`; what it is measured from is answered, and resolved when all are known.
 Offset read_surface(Section section, Surface& surface, const std::filesystem::path& folder,
                     const std::vector<std::string>& names, Problems& problems)
 {
@@ -145,6 +149,7 @@ std::vector<std::string> surface_names(const std::vector<Surface>& surfaces)
   return names;
 }
 
+/// One of `regions`.
 Region read_region(const YamlNode& node, const std::vector<std::string>& surfaces,
                    const std::vector<std::string>& materials, Problems& problems)
 {

@@ -120,6 +120,7 @@ void note_resolved(const std::string& path, L& law, double spacing, Settings& se
   }
 }
 
+/// One of `materials`; where the model is not known, nothing else of it is looked at.
 Material read_material(const YamlNode& node, double spacing, Problems& problems)
 {
   Material material{node.key, {}, {}};
@@ -155,6 +156,7 @@ Material read_material(const YamlNode& node, double spacing, Problems& problems)
 }
 } // namespace
 
+// In the order of the variant, so that the index of a name is that of its law.
 std::vector<std::string> model_names()
 {
   std::vector<std::string> names;

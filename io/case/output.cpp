@@ -20,6 +20,7 @@ std::vector<std::string> fields_of(const std::vector<Material>& materials)
   return fields;
 }
 
+/// `output.frames`.
 FrameSettings read_frames(Section section, const std::vector<Material>& materials, Problems& problems)
 {
   FrameSettings frames;
@@ -47,6 +48,7 @@ FrameSettings read_frames(Section section, const std::vector<Material>& material
   return frames;
 }
 
+/// `output.gauges`. That the points lie in the ground is seen to in geometry.cpp.
 GaugeSettings read_gauges(Section section, Problems& problems)
 {
   GaugeSettings gauges;

@@ -73,6 +73,7 @@ std::optional<MotionSource> read_direction(Section& motion, std::string_view key
   return read_source(*node, folder, problems);
 }
 
+/// `outcrop` or `upgoing`; required, because a factor of two hangs on it.
 RecordedAs read_recorded_as(Section& motion, Problems& problems)
 {
   const YamlNode* node = motion.require(
@@ -154,6 +155,7 @@ double after_record(std::string_view text)
   return time.problem.empty() && time.value >= 0 ? time.value : NAN;
 }
 
+/// A time, or `record` with what follows it.
 void read_duration(Section& section, SeismicSettings& settings, Problems& problems)
 {
   const YamlNode* node =
@@ -173,6 +175,7 @@ void read_duration(Section& section, SeismicSettings& settings, Problems& proble
                      "'; must be record, record + a time as 'record + 10 s', or a time as '24 s'");
 }
 
+/// `seismic.motion`; the built-in motion where the case has none.
 MotionSettings read_motion(Section motion, const std::filesystem::path& folder, Problems& problems)
 {
   MotionSettings settings;

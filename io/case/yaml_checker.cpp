@@ -150,9 +150,8 @@ Point read_point(const YamlNode& node, Problems& problems)
   return {NAN, NAN};
 }
 
-Section::Section(const YamlNode* node, Problems& problems, std::string path)
-    : node_(node), problems_(problems), path_(node ? node->path : std::move(path)),
-      named_(node || !path_.empty())
+Section::Section(const YamlNode* node, Problems& problems, const std::string& path)
+    : node_(node), problems_(problems), path_(node ? node->path : path), named_(node || !path_.empty())
 {
   if (!node || node->kind == YamlNode::Kind::map) return;
   problems.add(node->location, node->path, std::string(kind_of(*node)) + "; give a map of keys and values");

@@ -40,7 +40,7 @@ class Section
 {
 public:
   /// `path` tells where an absent section would stand: its defaults are settings too.
-  Section(const YamlNode* node, Problems& problems, std::string path = {});
+  Section(const YamlNode* node, Problems& problems, const std::string& path = {});
   Section(const Section&) = delete;
   Section& operator=(const Section&) = delete;
   ~Section();

@@ -72,6 +72,7 @@ void refuse_foreign(const RecordSource& source, std::string_view text, Lines)
     refuse(source, "looks like " + std::string(name) +
                        ", which is not read; convert it to two columns, time in s and acceleration");
   };
+  // Binary files are told by a zero byte, which no text has.
   if (text.substr(0, 4096).find('\0') != std::string_view::npos) refuse_as("a binary file");
   const std::string head = lower(text.substr(0, 4096));
   for (const Foreign& format : foreign)

@@ -80,6 +80,7 @@ void write_ids(h5::Group& data, const std::vector<std::int64_t>& ids)
   data.attribute_ascii("GlobalIds", "id");
 }
 
+// ParaView colours by number; the names stand beside it as field data, and in an attribute for people.
 void write_materials(h5::Group& grid, h5::Group& data, const std::vector<std::int64_t>& materials,
                      const std::vector<std::string>& names)
 {
@@ -99,6 +100,7 @@ void link_plain_names(h5::File& file)
     file.hard_link("VTKHDF/FieldData/material_names", "material_names");
 }
 
+/// Everything that a frame holds, under the names of VTKHDF and under plain ones.
 void fill(h5::File& file, const Frame& frame, const Provenance& provenance)
 {
   write_provenance(file, provenance, "seismpm-frame/1");
