@@ -139,3 +139,22 @@ TEST_CASE("the card of io/run_folder lists the exit codes that there are", "[sta
   CHECK(codes.size() > 5);
   CHECK(on_card == codes);
 }
+
+TEST_CASE("both programs print the keys at and below a path, without a case", "[stages]")
+{
+  const Bench bench;
+  for (const std::string program : {"mpm-static", "mpm-seismic"})
+  {
+    const Ending branch = bench.run(program, {"--keys", "grid.spacing"});
+    CHECK(branch.code == 0);
+    CHECK(branch.said == "grid.spacing  length, above 0 m; required\n              cell size h\n");
+    const Ending all = bench.run(program, {"--keys"});
+    CHECK(all.code == 0);
+    for (const std::string key :
+         {"\nseismic.motion.recorded_as ", "\nmaterials.NAME.strength.peak ", "\nUnits:\nlength: "})
+      CHECK_THAT(all.said, Catch::Matchers::Contains(key));
+    const Ending unknown = bench.run(program, {"--keys", "grid.spacng"});
+    CHECK(unknown.code == 64);
+    CHECK_THAT(unknown.said, Catch::Matchers::Contains("did you mean 'grid.spacing'?"));
+  }
+}
