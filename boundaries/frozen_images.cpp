@@ -97,7 +97,7 @@ void FrozenImages::measure_work(const Domain& domain, double dt, Energies& now) 
 {
   const auto [px, py] = domain.energy.step.momentum;
   now[Energy::reaction] +=
-      images_.work(domain.grid, dt) + dt * (correction_[0][0] * px + correction_[0][1] * py);
+      dt * images_.power(domain.grid) + dt * (correction_[0][0] * px + correction_[0][1] * py);
 }
 
 void FrozenImages::visit_state(StateVisitor& visitor)

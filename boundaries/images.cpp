@@ -200,9 +200,9 @@ std::array<double, 2> Images::add_forces(Domain& domain, const Rows& rows)
   return sum;
 }
 
-double Images::work(const Grid& g, double dt) const
+double Images::power(const Grid& g) const
 {
-  double power = 0;
+  double sum = 0;
   for (const ImageBlock& block : blocks_)
   {
     if (block.hidden) continue;
@@ -213,11 +213,16 @@ double Images::work(const Grid& g, double dt) const
                    {
                      const auto [vx, vy] = g.middle_velocity(node + k);
                      const double* force = &block.force.value[2 * (at + k)];
-                     power += force[0] * vx + force[1] * vy;
+                     sum += force[0] * vx + force[1] * vy;
                    }
                  });
   }
-  return dt * power;
+  return sum;
+}
+
+double Images::work(const Grid& grid, double dt) const
+{
+  return dt * power(grid);
 }
 
 std::string Images::problem(const Grid& grid, const Particles& p, std::size_t loads_there) const

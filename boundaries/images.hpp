@@ -67,7 +67,9 @@ public:
   /// no ground to move at the others. Images with sleeping ground all around them are left out: the nodes
   /// that they reach do not move.
   std::array<double, 2> add_forces(Domain& domain, const Rows& rows);
-  /// Work of those forces in the step, J per m; after the equation of motion.
+  /// Power of those forces with the nodes' mean velocity in the step, W per m; after the equation of motion.
+  double power(const Grid& grid) const;
+  /// Their work in the step, J per m.
   double work(const Grid& grid, double dt) const;
 
   /// What of a loaded list cannot be, in words; empty: nothing. `loads` is how many there will be.
