@@ -25,16 +25,17 @@ std::vector<double> read_numbers(const YamlNode* node, Problems& problems)
 void read_bounds(Section& section, const std::string& suffix, const Ladder& ladder, Measure& measure,
                  Problems& problems)
 {
-  const Bound every{section.number_or(0, "bound" + suffix, Dimension::none, Interval::positive()),
+  const std::string bound = "bound" + suffix, bounds = "bounds" + suffix, least = "order" + suffix;
+  const Bound every{section.number_or(0, std::string_view(bound), Dimension::none, Interval::positive()),
                     !suffix.empty()};
   if (every.value > 0)
     for (const auto* list : {&ladder.quick, &ladder.full})
       for (const double resolution : *list) measure.bounds[resolution] = every;
-  if (const YamlNode* node = section.find("bounds" + suffix))
+  if (const YamlNode* node = section.find(std::string_view(bounds)))
     for (const YamlNode& child : node->children)
       measure.bounds[std::stod(child.key)] = {
           read_number(child, Dimension::none, Interval::positive(), problems), !suffix.empty()};
-  const double order = section.number_or(NAN, "order" + suffix, Dimension::none);
+  const double order = section.number_or(NAN, std::string_view(least), Dimension::none);
   if (!std::isnan(order)) measure.order = {order, !suffix.empty()};
 }
 
