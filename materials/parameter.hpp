@@ -15,6 +15,7 @@ enum class Dimension
 {
   none,
   length,
+  area,
   time,
   density,
   stress,

@@ -99,7 +99,7 @@ def peak_text(peak, unit):
     """A greatest value with its time and place."""
     if peak["time"] is None:
         return "–"
-    place = "".join(f" at x = {p[0]:.1f}, y = {p[1]:.1f} m" for p in [peak.get("place")] if p)
+    place = "".join(f" at x = {p[0]:.1f}, y = {p[1]:.1f} m" for p in [peak.get("position")] if p)
     return f"{peak['value']:.2f} {unit}, t = {peak['time']:.1f} s{place}"
 
 

@@ -193,11 +193,24 @@ struct CheckpointSettings
   int keep = 2;
 };
 
+/// `output.slide`: which ground counts as slid, relative to the base. It enters the measures of the run-out,
+/// and with them what ends a motion (`seismic.motion.end: self_driven`) and a share of FLIP
+/// (`seismic.flip_ends: on_slide`).
+struct SlideSettings
+{
+  double moved = 1; ///< m beyond which ground has slid
+  double area = 10; ///< m2 of such ground that are a slide, when it is asked whether one is self-driven
+
+  /// Distance beyond which ground is out of place, m: the first tenth of the way to a slide.
+  double out_of_place() const { return 0.1 * moved; }
+};
+
 /// `output`.
 struct OutputSettings
 {
   FrameSettings frames;
   GaugeSettings gauges;
+  SlideSettings slide;
   CheckpointSettings checkpoint;
 };
 

@@ -69,6 +69,18 @@ GaugeSettings read_gauges(Section section, Problems& problems)
   return gauges;
 }
 
+SlideSettings read_slide(Section section)
+{
+  SlideSettings slide;
+  slide.moved = section.number_or(slide.moved,
+                                  {"moved", "ground that has moved as far, relative to the base, has slid"},
+                                  Dimension::length, Interval::positive());
+  slide.area =
+      section.number_or(slide.area, {"area", "ground that has to slide for a slide to be self-driven"},
+                        Dimension::area, Interval::positive());
+  return slide;
+}
+
 CheckpointSettings read_checkpoint(Section section)
 {
   CheckpointSettings checkpoint;
@@ -85,6 +97,7 @@ OutputSettings read_output(Section& root, const std::vector<Material>& materials
   OutputSettings settings;
   settings.frames = read_frames(output.optional_section("frames"), materials, problems);
   settings.gauges = read_gauges(output.optional_section("gauges"), problems);
+  settings.slide = read_slide(output.optional_section("slide"));
   settings.checkpoint = read_checkpoint(output.optional_section("checkpoint"));
   return settings;
 }

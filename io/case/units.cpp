@@ -31,6 +31,8 @@ constexpr std::array units{
     Unit{"mm", Dimension::length, 1e-3},
     Unit{"cm", Dimension::length, 1e-2},
     Unit{"km", Dimension::length, 1e3},
+    Unit{"m2", Dimension::area, 1},
+    Unit{"cm2", Dimension::area, 1e-4},
     Unit{"s", Dimension::time, 1},
     Unit{"ms", Dimension::time, 1e-3},
     Unit{"min", Dimension::time, 60},
@@ -138,6 +140,8 @@ std::string_view name_of(Dimension dimension)
     return "a pure number";
   case Dimension::length:
     return "length";
+  case Dimension::area:
+    return "area";
   case Dimension::time:
     return "time";
   case Dimension::density:

@@ -70,6 +70,7 @@ public:
   Shaking(Session& session, Model& model, const Motion& motion, std::string from)
       : session_(session), model_(model), motion_(motion), from_(std::move(from)),
         observer_(session, model, *motion.wave), energy_(session, model), departures_(session, model),
+        self_driven_(session.case_file.output.slide),
         flip_(session.case_file.seismic.flip_blend, session.case_file.seismic.flip_ends)
   {
   }
@@ -169,7 +170,7 @@ private:
     else
       save("final.h5", clock);
     energy_.report();
-    session_.log.info("{}", slide_text(observer_.slide().summary()));
+    session_.log.info("{}", slide_text(observer_.slide().summary(), session_.case_file.output.slide.moved));
     session_.finish("seismic", exit_code::done, model_, clock, summary(clock), observer_.files());
     return exit_code::done;
   }
@@ -210,8 +211,8 @@ private:
     session_.log.info(
         "t = {:.2f} s: the slide is self-driven: {:.1f} m2 have moved more than {} m and advanced at "
         "{} m/s or more for {} s (now {:.2f} m/s); the motion fades until t = {:.2f} s",
-        time, moved.area, Slide::moved, SelfDriven::least_speed, SelfDriven::hold, moved.advance(),
-        motion_.wave->fade.end());
+        time, moved.area, session_.case_file.output.slide.moved, self_driven_.least_speed(), SelfDriven::hold,
+        moved.advance(), motion_.wave->fade.end());
   }
 
   void fade_when_self_driven()

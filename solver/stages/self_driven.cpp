@@ -6,7 +6,7 @@ bool SelfDriven::decide(const MovedGround& moved, double time)
 {
   constexpr double rounding = 1e-9; // of times that are multiples of a step
   if (!std::isnan(decided_)) return false;
-  if (moved.area < least_area || moved.advance() < least_speed)
+  if (moved.area < slide_.area || moved.advance() < least_speed())
   {
     since_ = NAN;
     return false;

@@ -38,9 +38,9 @@ Movement relative(const Movement& a, const Movement& b)
 double percentile(std::vector<double> values, double share)
 {
   if (values.empty()) return 0;
-  const auto place = values.begin() + static_cast<std::ptrdiff_t>(share * (values.size() - 1));
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
+  const auto bound = values.begin() + static_cast<std::ptrdiff_t>(share * (values.size() - 1));
+  std::nth_element(values.begin(), bound, values.end());
+  return *bound;
 }
 
 /// Gaps between bins that hold ground, closed by straight lines.
@@ -85,9 +85,9 @@ Outline::Change Outline::greatest_fall() const
   return greatest;
 }
 
-void Slide::Peak::raise(double other, double when, std::array<double, 2> place)
+void Slide::Peak::raise(double other, double when, std::array<double, 2> position)
 {
-  if (other > value) *this = {other, when, place[0], place[1]};
+  if (other > value) *this = {other, when, position[0], position[1]};
 }
 
 void Slide::add_series(History& history, History::Clock clock)
@@ -108,7 +108,7 @@ void Slide::add_series(History& history, History::Clock clock)
 
 void Slide::sample(History& history, double time)
 {
-  note_departures(time);
+  note_out_of_place(time);
   now_ = measure();
   area_.raise(now_.area, time);
   velocity_99_.raise(now_.velocity_99, time);
@@ -139,7 +139,7 @@ MovedGround Slide::measure() const
   for (int k = 0; k < p.size(); ++k)
   {
     const Movement m = relative(motion_of(main, k), base);
-    if (m.distance() < moved) continue;
+    if (m.distance() < case_file_.output.slide.moved) continue;
     all.area += model_.reference_volume[p.id[k]];
     all.mass += p.mass[k];
     all.displacement[0] += p.mass[k] * m.ux;
@@ -163,15 +163,16 @@ MovedGround Slide::measure() const
   return all;
 }
 
-void Slide::note_departures(double time)
+void Slide::note_out_of_place(double time)
 {
   const Domain& main = *model_.main;
   const Movement base = base_motion(model_);
-  departure_.resize(model_.reference_volume.size(), NAN);
+  const double departed = case_file_.output.slide.out_of_place();
+  out_of_place_since_.resize(model_.reference_volume.size(), NAN);
   for (int k = 0; k < main.particles.size(); ++k)
   {
     const Movement m = relative(motion_of(main, k), base);
-    double& since = departure_[main.particles.id[k]];
+    double& since = out_of_place_since_[main.particles.id[k]];
     const double far = m.distance();
     if (far < departed) since = NAN;
     if (far < departed || !std::isnan(since)) continue;
@@ -188,16 +189,18 @@ double Slide::trigger_time() const
   const Movement base = base_motion(model_);
   std::vector<std::pair<double, double>> left; // when, mass
   double mass = 0;
-  for (int k = 0; k < p.size() && !departure_.empty(); ++k)
+  for (int k = 0; k < p.size() && !out_of_place_since_.empty(); ++k)
   {
-    if (relative(motion_of(main, k), base).distance() < moved || std::isnan(departure_[p.id[k]])) continue;
-    left.push_back({departure_[p.id[k]], p.mass[k]});
+    if (relative(motion_of(main, k), base).distance() < case_file_.output.slide.moved ||
+        std::isnan(out_of_place_since_[p.id[k]]))
+      continue;
+    left.push_back({out_of_place_since_[p.id[k]], p.mass[k]});
     mass += p.mass[k];
   }
   for (const Departed& one : main.departed) // it has moved, if anything has
   {
-    if (departure_.empty() || std::isnan(departure_[one.particle])) continue;
-    left.push_back({departure_[one.particle], one.mass});
+    if (out_of_place_since_.empty() || std::isnan(out_of_place_since_[one.particle])) continue;
+    left.push_back({out_of_place_since_[one.particle], one.mass});
     mass += one.mass;
   }
   std::sort(left.begin(), left.end());
@@ -210,8 +213,8 @@ double Slide::trigger_time() const
 Outline Slide::outline() const
 {
   const Particles& p = model_.main->particles;
-  const double size = scene_.grid.particle_spacing(), left = scene_.domain.left;
-  const int count = static_cast<int>(std::lround(scene_.domain.width() / size));
+  const double size = case_file_.grid.particle_spacing(), left = case_file_.domain.left;
+  const int count = static_cast<int>(std::lround(case_file_.domain.width() / size));
   Outline line;
   for (int k = 0; k < count; ++k) line.x.push_back(left + (k + 0.5) * size);
   line.start.assign(count, NAN);
@@ -237,7 +240,7 @@ Outline Slide::outline() const
 nlohmann::json Slide::peak(const Peak& peak) const
 {
   nlohmann::json result{{"value", peak.value}, {"time", number(peak.time)}};
-  if (!std::isnan(peak.x)) result["place"] = {peak.x, peak.y};
+  if (!std::isnan(peak.x)) result["position"] = {peak.x, peak.y};
   return result;
 }
 
@@ -277,7 +280,7 @@ void Slide::write(h5::File& file) const
 
 void Slide::save(h5::Group& group) const
 {
-  group.write("departure", std::span<const double>(departure_), {departure_.size()}, "s");
+  group.write("departure", std::span<const double>(out_of_place_since_), {out_of_place_since_.size()}, "s");
   std::vector<double> peaks;
   for (const Peak* p : {&area_, &velocity_99_, &velocity_point_})
     peaks.insert(peaks.end(), {p->value, p->time, p->x, p->y});
@@ -289,10 +292,10 @@ void Slide::load(const h5::Group& group, double now)
 {
   const auto refuse = [&](const std::string& name)
   { throw Error(exit_code::bad_input, group.where(name) + ": no run leaves that; use another file"); };
-  departure_ = group.read_doubles("departure");
-  for (const double time : departure_)
+  out_of_place_since_ = group.read_doubles("departure");
+  for (const double time : out_of_place_since_)
     if (time < 0 || time > now) refuse("departure");
-  if (departure_.size() != std::size_t(model_.main->particles.size())) refuse("departure");
+  if (out_of_place_since_.size() != std::size_t(model_.main->particles.size())) refuse("departure");
   const std::vector<double> peaks = group.read_doubles("peaks");
   if (peaks.size() != 12) refuse("peaks");
   std::size_t k = 0;

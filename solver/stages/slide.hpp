@@ -9,7 +9,7 @@
 
 namespace mpm
 {
-/// The ground that has moved more than `Slide::moved` relative to the base, at one time.
+/// The ground that has slid, `output.slide.moved` or more relative to the base, at one time.
 struct MovedGround
 {
   double area = 0;                      ///< of the undeformed ground, m2
@@ -45,19 +45,17 @@ struct Outline
 class Slide
 {
 public:
-  static constexpr double moved = 1;      ///< m beyond which ground counts as slid
-  static constexpr double departed = 0.1; ///< m beyond which it has left its place
-  static constexpr double early = 0.1;    ///< share of the moved mass that makes the beginning of a slide
+  static constexpr double early = 0.1; ///< share of the moved mass that makes the beginning of a slide
 
-  Slide(const Model& model, const Case& case_file) : model_(model), scene_(case_file) {}
+  Slide(const Model& model, const Case& case_file) : model_(model), case_file_(case_file) {}
   void add_series(History& history, History::Clock clock);
   /// Measures the state at `time` (s) and records it in the row that has begun.
   void sample(History& history, double time);
   const MovedGround& now() const { return now_; }
   double time() const { return time_; } ///< of the last sample, s
 
-  /// When the slide began, s: `early` of the ground that has moved by now had left its place for good. NaN:
-  /// none has moved.
+  /// When the slide began, s: `early` of the ground that has moved by now was out of place
+  /// (SlideSettings::out_of_place) and did not come back. NaN: none has moved.
   double trigger_time() const;
   Outline outline() const;
   nlohmann::json summary() const;
@@ -72,17 +70,17 @@ private:
   struct Peak
   {
     double value = 0, time = NAN, x = NAN, y = NAN;
-    void raise(double other, double when, std::array<double, 2> place = {NAN, NAN});
+    void raise(double other, double when, std::array<double, 2> position = {NAN, NAN});
   };
   MovedGround measure() const;
-  void note_departures(double time);
+  void note_out_of_place(double time);
   nlohmann::json peak(const Peak& peak) const;
 
   const Model& model_;
-  const Case& scene_;
+  const Case& case_file_;
   MovedGround now_;
   double time_ = 0;
-  std::vector<double> departure_; ///< by particle id: since when it is out of place, s; NaN: it is in place
+  std::vector<double> out_of_place_since_; ///< by particle id, s; NaN: it is in place
   Peak area_, velocity_99_, velocity_point_;
   struct
   {

@@ -6,6 +6,7 @@
 
 namespace mpm
 {
-/// What a slide has come to, in one line: how much ground, how far, when. Takes `Slide::summary()`.
-std::string slide_text(const nlohmann::json& slide);
+/// What a slide has come to, in one line: how much ground, how far, when. Takes `Slide::summary()` and the
+/// distance beyond which ground counts as slid (m).
+std::string slide_text(const nlohmann::json& slide, double moved);
 } // namespace mpm

@@ -226,6 +226,25 @@ TEST_CASE("Interfaces are sharp and inertia is lumped unless the case says other
              Contains("must be lumped or consistent; did you mean 'lumped'?"));
 }
 
+TEST_CASE("What counts as slid is 1 m and 10 m2 unless the case says otherwise", "[io]")
+{
+  const SlideSettings usual = load(small).output.slide;
+  CHECK(usual.moved == 1);
+  CHECK(usual.area == 10);
+  CHECK(usual.out_of_place() == 0.1);
+  const SlideSettings laboratory =
+      load(small + "output: {slide: {moved: 1 cm, area: 50 cm2}}\n").output.slide;
+  CHECK(laboratory.moved == 0.01);
+  CHECK(laboratory.area == Approx(0.005));
+  CHECK_THAT(refusal(small, {"output.slide.moved=0 m"}),
+             Contains("output.slide.moved") && Contains("above 0"));
+  CHECK_THAT(refusal(small, {"output.slide.moved=-1 m"}), Contains("above 0"));
+  CHECK_THAT(refusal(small, {"output.slide.area=0 m2"}), Contains("above 0"));
+  CHECK_THAT(refusal(small, {"output.slide.area=10 m"}),
+             Contains("output.slide.area: 'm' is no unit of area; units: m2 or cm2"));
+  CHECK_THAT(refusal(small, {"output.slide.moved=1"}), Contains("needs a unit: write '1 m'"));
+}
+
 TEST_CASE("Mohr-Coulomb and slip weakening are read from their tables", "[io]")
 {
   const Case case_file = load(landslide);

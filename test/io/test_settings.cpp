@@ -82,9 +82,10 @@ TEST_CASE("units, defaults written out and the order of keys make no other setti
 {
   const auto usual = settings_of(small);
   CHECK(settings_of(small, {"grid.spacing=100 cm"}).at("grid.spacing") == "1 m");
-  CHECK(settings_of(small, {"grid.particles_per_cell=3", "static.gravity=9.81 m/s2", "static.masses=scaled",
-                            "static.until.at_most=60 s", "output.checkpoint.keep=2",
-                            "time_step.courant_number=0.5"}) == usual);
+  CHECK(settings_of(small,
+                    {"grid.particles_per_cell=3", "static.gravity=9.81 m/s2", "static.masses=scaled",
+                     "static.until.at_most=60 s", "output.checkpoint.keep=2", "output.slide.moved=100 cm",
+                     "output.slide.area=10 m2", "time_step.courant_number=0.5"}) == usual);
   CHECK(usual.at("static.until.at_most") == "60 s");
   CHECK(settings_of(small, {"static.ramp=40 s"}).at("static.until.at_most") == "80 s");
   for (const char* defaults :

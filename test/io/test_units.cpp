@@ -10,6 +10,8 @@ TEST_CASE("Numbers with units become SI", "[io]")
 {
   CHECK(parse_quantity("0.25 m", Dimension::length).value == 0.25);
   CHECK(parse_quantity("25 cm", Dimension::length).value == 0.25);
+  CHECK(parse_quantity("10 m2", Dimension::area).value == 10);
+  CHECK(parse_quantity("50 cm^2", Dimension::area).value == Approx(0.005));
   CHECK(parse_quantity("40 MPa", Dimension::stress).value == 40e6);
   CHECK(parse_quantity("2200 kg/m3", Dimension::density).value == 2200);
   CHECK(parse_quantity("2200kg/m^3", Dimension::density).value == 2200);

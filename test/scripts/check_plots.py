@@ -57,7 +57,7 @@ def write_history(folder, end):
 
 def summary(end, code):
     """summary.json of a run with such names."""
-    peak = {"value": 1.0, "time": 1.0, "place": [1.0, 2.0]}
+    peak = {"value": 1.0, "time": 1.0, "position": [1.0, 2.0]}
     change = {"height": 1.0, "x": 2.0}
     waves = {kind: {"speed": 100.0, "carried_to": 5.0} for kind in "SP"}
     applied = dict.fromkeys(("pga", "pga_time", "pgv", "pgd", "arias", "d5_95"), 1.0)

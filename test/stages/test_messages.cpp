@@ -84,20 +84,20 @@ TEST_CASE("the log of a seismic run ends with the slide", "[stages]")
 TEST_CASE("a slide is told by area, centre of mass, toe and trigger", "[stages]")
 {
   nlohmann::json slide{{"moved_area", 0.0}, {"greatest_moved_area", {{"value", 0.0}, {"time", nullptr}}}};
-  CHECK(slide_text(slide) == "no slide: no ground has moved more than 1 m");
+  CHECK(slide_text(slide, 1) == "no slide: no ground has moved more than 1 m");
   slide["greatest_moved_area"] = {{"value", 47.64}, {"time", 0.7}};
-  CHECK(slide_text(slide) ==
+  CHECK(slide_text(slide, 1) ==
         "no slide: no ground is more than 1 m from its place (47.6 m2 were at t = 0.70 s, and came back)");
   slide.update({{"moved_area", 123.45},
                 {"centre_of_mass_displacement", {-3.0, -4.0}},
                 {"toe", 40.04},
                 {"toe_advance", 2.5},
                 {"trigger_time", 6.789}});
-  const std::string text = slide_text(slide);
+  const std::string text = slide_text(slide, 1);
   CHECK(
       text ==
       "slide: 123.5 m2 have moved more than 1 m, their centre of mass 5.00 m (3.00 m to the left and 4.00 m "
       "down); toe at x = 40.0 m, advanced by 2.50 m; triggered at t = 6.79 s");
   slide["trigger_time"] = nullptr;
-  CHECK(slide_text(slide) == text.substr(0, text.rfind(';')));
+  CHECK(slide_text(slide, 1) == text.substr(0, text.rfind(';')));
 }

@@ -103,6 +103,11 @@ TEST_CASE("a folder that holds another setting's run is refused with 73 and the 
   const Ending other_motion = bench.run_seismic("a", scaled);
   CHECK(other_motion.code == 73);
   CHECK_THAT(other_motion.said, Contains("motion.horizontal"));
+  Arguments smaller = short_run; // it may end the motion and FLIP at another time
+  smaller.insert(smaller.end(), {"--set", "output.slide.moved=10 cm"});
+  const Ending other_slide = bench.run_seismic("a", smaller);
+  CHECK(other_slide.code == 73);
+  CHECK_THAT(other_slide.said, Contains("output.slide.moved"));
   CHECK(bench.run("mpm-static", bench.static_arguments("a")).code == 73);
   CHECK(times(bench / "static") == before);
 }

@@ -19,7 +19,7 @@ MovedGround moving(double speed, double area = 20)
 
 TEST_CASE("a slide that advances for a second without a break is self-driven", "[stages]")
 {
-  SelfDriven end;
+  SelfDriven end{SlideSettings{}};
   for (int k = 0; k < 10; ++k) CHECK_FALSE(end.decide(moving(0.3), 4 + 0.1 * k));
   CHECK(end.decide(moving(0.3), 5.0));
   CHECK(end.decided() == 5.0);
@@ -29,7 +29,7 @@ TEST_CASE("a slide that advances for a second without a break is self-driven", "
 
 TEST_CASE("a mass that shaking moves to and fro, or that is small, is not self-driven", "[stages]")
 {
-  SelfDriven shaken, uphill, small;
+  SelfDriven shaken{SlideSettings{}}, uphill{SlideSettings{}}, small{SlideSettings{}};
   for (int k = 0; k < 200; ++k)
   {
     const double t = 0.1 * k;
@@ -40,9 +40,23 @@ TEST_CASE("a mass that shaking moves to and fro, or that is small, is not self-d
   }
 }
 
+TEST_CASE("what is self-driven goes with what counts as slid, but for the time", "[stages]")
+{
+  SelfDriven end{SlideSettings{.moved = 0.01, .area = 0.002}};
+  CHECK(end.least_speed() == Approx(0.001));
+  for (int k = 0; k < 10; ++k) CHECK_FALSE(end.decide(moving(0.002, 0.003), 0.1 * k));
+  CHECK(end.decide(moving(0.002, 0.003), 1.0));
+  SelfDriven slow{SlideSettings{.moved = 0.01, .area = 0.002}}, usual{SlideSettings{}};
+  for (int k = 0; k < 30; ++k)
+  {
+    CHECK_FALSE(slow.decide(moving(0.0009, 0.003), 0.1 * k));
+    CHECK_FALSE(usual.decide(moving(0.002, 0.003), 0.1 * k));
+  }
+}
+
 TEST_CASE("the decision goes on across a restart", "[stages]")
 {
-  SelfDriven first, second;
+  SelfDriven first{SlideSettings{}}, second{SlideSettings{}};
   first.decide(moving(1), 3.0);
   h5::File file = h5::File::in_memory("end");
   h5::Group group = file.create_group("motion");

@@ -20,7 +20,11 @@ struct SlidingBlock
   History history;
   History::Clock clock = history.add_clock();
 
-  SlidingBlock() { slide.add_series(history, clock); }
+  explicit SlidingBlock(const SlideSettings& settings = {})
+  {
+    case_file.output.slide = settings;
+    slide.add_series(history, clock);
+  }
 
   static bool slides(double x, double y) { return x > 4 && x < 8 && y > 4; }
 
@@ -78,6 +82,21 @@ TEST_CASE("a slide to the left has its toe on the left", "[stages]")
   CHECK(block.slide.now().toe_advance == Approx(2));
 }
 
+TEST_CASE("a model of laboratory size has a slide where centimetres count", "[stages]")
+{
+  SlidingBlock usual, small({.moved = 0.01, .area = 0.01});
+  for (SlidingBlock* block : {&usual, &small})
+  {
+    block->sample(0);
+    block->move(0, 0.012, 0, 0, 0.01, 0); // at 1 cm/s it passed 1 mm 1.1 s ago
+    block->sample(2);
+  }
+  CHECK(usual.slide.now().area == 0);
+  CHECK(std::isnan(usual.slide.trigger_time()));
+  CHECK(small.slide.now().area == Approx(4 * 2));
+  CHECK(small.slide.trigger_time() == Approx(2 - 1.1));
+}
+
 TEST_CASE("shaking of the whole ground moves none of it", "[stages]")
 {
   SlidingBlock block;
@@ -101,22 +120,22 @@ TEST_CASE("the trigger is when the ground that slid had left its place for good"
   block.sample(3);
   block.move(0, 1.3, 0, 0, 0.8, 0);
   block.sample(4);
-  CHECK(block.slide.trigger_time() == Approx(3 - (0.5 - Slide::departed) / 0.8));
+  CHECK(block.slide.trigger_time() == Approx(3 - (0.5 - 0.1) / 0.8));
 }
 
-TEST_CASE("the greatest velocities are kept with time and place, also across a restart", "[stages]")
+TEST_CASE("the greatest velocities are kept with time and position, also across a restart", "[stages]")
 {
   SlidingBlock block;
   block.move(0, 2, 0, 0, 4, 3);
   block.sample(1);
-  const std::array<double, 2> place = block.slide.now().point;
+  const std::array<double, 2> position = block.slide.now().point;
   block.move(0, 3, 0, 0, 1, 0);
   block.sample(2);
   const nlohmann::json summary = block.slide.summary();
   CHECK(summary["peak_velocity"]["value"] == Approx(5));
   CHECK(summary["point_velocity"]["value"] == Approx(5));
   CHECK(summary["point_velocity"]["time"] == 1);
-  CHECK(summary["point_velocity"]["place"] == nlohmann::json(place));
+  CHECK(summary["point_velocity"]["position"] == nlohmann::json(position));
 
   h5::File file = h5::File::in_memory("slide");
   h5::Group group = file.create_group("slide");
