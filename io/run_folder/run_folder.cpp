@@ -47,7 +47,7 @@ constexpr std::string_view format = "seismpm-identity/2";
 
 bool is_state(const std::string& name)
 {
-  return name == "final.h5" || checkpoint_step(name);
+  return name == final_name || checkpoint_step(name);
 }
 
 /// Is this a name under which our programs write?
@@ -260,7 +260,7 @@ std::vector<std::string> RunFolder::identity_lines() const
 std::vector<fs::path> RunFolder::states() const
 {
   std::vector<fs::path> found = checkpoints();
-  const fs::path final = path_ / "final.h5";
+  const fs::path final = path_ / final_name;
   if (fs::exists(fs::symlink_status(final))) found.insert(found.begin(), final);
   return found;
 }

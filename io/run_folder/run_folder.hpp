@@ -15,6 +15,9 @@ namespace mpm
 /// The case of a run with every default written out, for people; a file of its folder.
 inline constexpr const char* resolved_name = "case-resolved.yaml";
 
+/// The last state of a finished stage.
+inline constexpr const char* final_name = "final.h5";
+
 /// "checkpoint-000062500.h5"
 std::string checkpoint_name(std::int64_t step);
 

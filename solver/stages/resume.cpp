@@ -1,6 +1,6 @@
 // Which state a run goes on from, and whether it can be one of its own.
 
-#include "io/results/checkpoint.hpp"
+#include "io/results/domain_state.hpp"
 #include "io/run_folder/finish_mark.hpp"
 #include "solver/mpm/simd.hpp"
 #include "solver/stages/session.hpp"

@@ -5,7 +5,7 @@
 //   (the same again)                                          goes on after an interruption
 
 #include "io/case/units.hpp"
-#include "io/results/checkpoint.hpp"
+#include "io/results/domain_state.hpp"
 #include "solver/mpm/parallel.hpp"
 #include "solver/stages/boundary_reports.hpp"
 #include "solver/stages/departures.hpp"

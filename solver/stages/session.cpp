@@ -1,7 +1,7 @@
 #include "solver/stages/session.hpp"
 
 #include "io/common/signals.hpp"
-#include "io/results/checkpoint.hpp"
+#include "io/results/domain_state.hpp"
 #include "io/run_folder/finish_mark.hpp"
 #include "solver/mpm/parallel.hpp"
 #include "solver/mpm/waiting.hpp"

@@ -1,5 +1,6 @@
-#include "io/results/checkpoint.hpp"
+#include "io/results/domain_state.hpp"
 
+#include "io/results/checkpoint_layout.hpp"
 #include "solver/mpm/state_problem.hpp"
 
 #include <fmt/format.h>
@@ -56,6 +57,12 @@ private:
   bool may_be_none_; ///< whether NaN stands for no value
 };
 
+/// Where a boundary keeps what it remembers.
+std::string boundary_group(const Boundary& boundary)
+{
+  return fmt::format("{}/{}", checkpoint::boundary, boundary.name());
+}
+
 void save_particles(h5::Group group, const Particles& p)
 {
   const std::size_t count = p.size();
@@ -89,7 +96,7 @@ void save_materials(h5::Group group, const Domain& domain)
 }
 
 /// Which particles belong to which block: (block x, block y, material, begin, end) a line.
-void save_homes(h5::Group group, const Domain& domain)
+void save_blocks(h5::Group group, const Domain& domain)
 {
   std::vector<std::int64_t> table;
   for (const OccupiedBlock& occupied : domain.blocks.occupied)
@@ -101,7 +108,7 @@ void save_homes(h5::Group group, const Domain& domain)
   group.write("occupied_blocks", std::span<const std::int64_t>(table), {table.size() / 5, 5}, "1");
 }
 
-void load_homes(const h5::Group& group, Domain& domain)
+void load_blocks(const h5::Group& group, Domain& domain)
 {
   domain.blocks.occupied.clear();
   const std::vector<std::int64_t> table = group.read_ints("occupied_blocks");
@@ -132,7 +139,7 @@ void load_materials(const h5::Group& group, Domain& domain)
   for (std::size_t m = 0; m < domain.materials.size(); ++m)
   {
     Material& material = domain.materials[m];
-    const h5::Group own = group.open_group("materials/" + material.name);
+    const h5::Group own = group.open_group(fmt::format("{}/{}", checkpoint::materials, material.name));
     if (own.attribute_string("model") != material.model() || own.attribute_int("begin") != begin[m] ||
         own.attribute_int("end") != begin[m + 1])
       throw Error(exit_code::bad_input, own.where() +
@@ -144,7 +151,7 @@ void load_materials(const h5::Group& group, Domain& domain)
   domain.material_begin = std::move(begin);
 }
 
-void visit_tracers(StateVisitor& visitor, std::vector<Gauge>& gauges)
+void visit_gauges(StateVisitor& visitor, std::vector<Gauge>& gauges)
 {
   RecordVisitor<Gauge> list(visitor, "", gauges);
   list.member("x", "m", &Gauge::x);
@@ -158,22 +165,22 @@ void visit_tracers(StateVisitor& visitor, std::vector<Gauge>& gauges)
 
 void save_domain(h5::Group& group, Domain& domain)
 {
-  save_particles(group.create_group("particles"), domain.particles);
-  save_materials(group.create_group("materials"), domain);
-  save_homes(group.create_group("grid"), domain);
+  save_particles(group.create_group(checkpoint::particles), domain.particles);
+  save_materials(group.create_group(checkpoint::materials), domain);
+  save_blocks(group.create_group(checkpoint::grid), domain);
   for (const auto& boundary : domain.boundaries)
   {
     if (boundary->name().empty()) continue;
-    Saver saver(group.create_group("boundary/" + std::string(boundary->name())));
+    Saver saver(group.create_group(boundary_group(*boundary)));
     boundary->visit_state(saver);
   }
-  Saver saver(group.create_group("gauges"));
-  visit_tracers(saver, domain.gauges);
-  Saver departed(group.create_group("departed"));
+  Saver saver(group.create_group(checkpoint::gauges));
+  visit_gauges(saver, domain.gauges);
+  Saver departed(group.create_group(checkpoint::departed));
   visit_departed(departed, domain.departed);
-  Saver ledger(group.create_group("energy"));
-  visit_energy_balance(ledger, domain.energy);
-  Saver rest(group.create_group("rest"));
+  Saver energy(group.create_group(checkpoint::energy));
+  visit_energy_balance(energy, domain.energy);
+  Saver rest(group.create_group(checkpoint::rest));
   visit_rest(rest, domain);
 }
 
@@ -208,15 +215,15 @@ void read_boundaries(const h5::Group& group, Domain& domain)
   for (const auto& boundary : domain.boundaries)
   {
     if (boundary->name().empty()) continue;
-    Loader loader(group.open_group("boundary/" + std::string(boundary->name())));
+    Loader loader(group.open_group(boundary_group(*boundary)));
     boundary->visit_state(loader);
   }
-  Loader gauges(group.open_group("gauges"), true); // of a gauge whose ground has left
-  visit_tracers(gauges, domain.gauges);
-  Loader departed(group.open_group("departed"));
+  Loader gauges(group.open_group(checkpoint::gauges), true); // of a gauge whose ground has left
+  visit_gauges(gauges, domain.gauges);
+  Loader departed(group.open_group(checkpoint::departed));
   visit_departed(departed, domain.departed);
-  Loader ledger(group.open_group("energy"));
-  visit_energy_balance(ledger, domain.energy);
+  Loader energy(group.open_group(checkpoint::energy));
+  visit_energy_balance(energy, domain.energy);
 }
 
 std::vector<double> masses_by_id(const Particles& p)
@@ -233,12 +240,12 @@ void load(const h5::Group& group, Domain& domain, bool with_boundaries)
   try
   {
     if (with_boundaries) read_boundaries(group, domain);
-    read_particles(group.open_group("particles"), domain);
+    read_particles(group.open_group(checkpoint::particles), domain);
     load_materials(group, domain);
-    load_homes(group.open_group("grid"), domain);
+    load_blocks(group.open_group(checkpoint::grid), domain);
     if (with_boundaries)
     {
-      Loader rest(group.open_group("rest"));
+      Loader rest(group.open_group(checkpoint::rest));
       visit_rest(rest, domain);
     }
   }

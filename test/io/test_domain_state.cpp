@@ -1,4 +1,4 @@
-#include "io/results/checkpoint.hpp"
+#include "io/results/domain_state.hpp"
 #include "solver/mpm/step.hpp"
 #include "test/domains.hpp"
 
