@@ -8,6 +8,7 @@ namespace mpm
 namespace
 {
 constexpr double base_drift_limit = 0.1; // cells that the base may end away from the free field
+constexpr double apart_limit = 0.5;      // cells that a side and its column may end apart
 
 /// Where the base has gone that the input did not take it, and a warning when that is more than a tenth of a
 /// cell.
@@ -30,13 +31,15 @@ void report_base(Session& session, const Model& model)
 }
 } // namespace
 
+/// A column stands for level ground that goes on for ever. Where the side cuts a slope, the static stresses
+/// of the two differ, and the side would push from the first step on.
 void warn_of_unlike_columns(Session& session, const Model& model)
 {
   constexpr double most = 0.1; // of the column's stress; level layers agree within a few hundredths
-  for (const Edge edge : {Edge::left, Edge::right})
+  for (const Edge side : both_sides)
   {
-    const double mismatch = side_stress_mismatch(model, session.case_file, edge);
-    const char* name = edge == Edge::left ? "left" : "right";
+    const double mismatch = side_stress_mismatch(model, session.case_file, side);
+    const std::string_view name = side_name(side);
     session.log.detail("{} side: sigma_xx differs from that of its free-field column by {:.1f} %", name,
                        100 * mismatch);
     if (mismatch > most)
@@ -54,14 +57,16 @@ void report_boundaries(Session& session, const Model& model)
   {
     const double apart = side->separation(model.main->particles);
     session.log.info("{} side: up to {:.3f} m apart from its column at the end", side->name(), apart);
-    if (apart > 0.5 * session.case_file.grid.spacing)
+    if (apart > apart_limit * session.case_file.grid.spacing)
       session.log.warn(
           "the {} side and its free-field column have moved {:.2f} m apart, more than half a cell: the "
           "model yields or sinks near its side; widen the domain or deepen the rock",
           side->name(), apart);
   }
-  for (const FreeFieldColumn* column : {model.left.get(), model.right.get()})
+  // Ground that yields in its column yields everywhere beyond: no failure of the slope, and worth knowing.
+  for (const Edge side : both_sides)
   {
+    const FreeFieldColumn* column = model.column(side);
     if (!column) continue;
     double greatest = 0;
     for (const Material& material : column->domain->materials)

@@ -37,6 +37,7 @@ double number(const std::string& option, const std::string& text, Dimension dime
   refuse(option + " '" + text + "'", read.problem + (comma ? "; decimals follow a point: 1.5" : ""));
 }
 
+/// A number above 0, in SI.
 double positive(const std::string& option, const std::string& text, Dimension dimension)
 {
   const double value = number(option, text, dimension);
@@ -44,6 +45,7 @@ double positive(const std::string& option, const std::string& text, Dimension di
   return value;
 }
 
+/// A number of threads.
 int count(const std::string& option, const std::string& text)
 {
   const double value = number(option, text, Dimension::none);
@@ -78,6 +80,7 @@ void add_seismic_options(CLI::App& app, Options& options, Typed& typed)
   app.add_option("--scale", typed.scale, "factor on the motion, on top of the case's")->type_name("F");
 }
 
+/// Options that both programs have.
 void add_common_options(CLI::App& app, Options& options, Typed& typed)
 {
   app.add_option("CASE", options.case_file, "case file (YAML), required")->type_name("");
@@ -104,6 +107,7 @@ void add_common_options(CLI::App& app, Options& options, Typed& typed)
   app.add_flag("--verbose", typed.verbose, "details too");
 }
 
+/// Long names of all options, without dashes.
 std::vector<std::string> names_of(const CLI::App& app)
 {
   std::vector<std::string> names;
@@ -161,7 +165,7 @@ std::string key_of(const std::string& override_text)
   return key;
 }
 
-/// Overrides must say something, and none may undo one before it.
+/// Overrides must say something, and none may undo one before it, as `--set a.b=1 --set a={c: 2}` would.
 void check_overrides(const std::vector<std::string>& overrides)
 {
   for (auto now = overrides.begin(); now != overrides.end(); ++now)
@@ -203,6 +207,7 @@ void print_keys(const std::string& path)
   if (path.empty()) std::cout << "\nUnits:\n" << units_text();
 }
 
+/// Numbers, times and lists; the library has read words and files already.
 void read_values(const CLI::App& app, const Typed& typed, Options& options)
 {
   const auto given = [](const std::string& text) { return !text.empty(); };
@@ -227,7 +232,7 @@ try
   Typed typed;
   add_common_options(app, options, typed);
   if (seismic) add_seismic_options(app, options, typed);
-  for (CLI::Option* option : app.get_options()) option->disable_flag_override();
+  for (CLI::Option* option : app.get_options()) option->disable_flag_override(); // no --fresh=false
   app.set_version_flag("--version", version);
   app.allow_extras();
   try

@@ -31,8 +31,10 @@ struct Options
   Verbosity verbosity = Verbosity::normal;
 
   bool seismic() const { return program == "mpm-seismic"; }
+  /// The name of the program's stage in logs and results.
+  const char* stage() const { return seismic() ? "seismic" : "static"; }
   /// The case's key for the Courant number of this stage.
-  const char* safety_key() const { return seismic() ? "time_step.courant_number" : "static.courant_number"; }
+  const char* courant_key() const { return seismic() ? "time_step.courant_number" : "static.courant_number"; }
 };
 
 /// Fills `options`, whose `program` says which options there are. Returns an exit code when the command line

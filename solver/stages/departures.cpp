@@ -29,7 +29,8 @@ struct SideLine
   }
 };
 
-/// Follows the faces of a side upwards as long as they hang together.
+/// Follows the faces of a side upwards as long as they hang together: a slide may shear the upper ones off,
+/// and they are then no side any more.
 SideLine line_of(const FreeFieldSide& side, const Domain& domain, double size)
 {
   const Particles& p = domain.particles;
@@ -72,6 +73,7 @@ struct Edges
         moved.push_back({p.x[k] - p.reference_x[k], p.y[k] - p.reference_y[k]});
       }
     if (model.base) base = case_file.domain.bottom;
+    // The base is as low as its lowest face: ground above it has not passed it.
     double sunk = INFINITY;
     for (const auto& [x, y] : moved) sunk = std::min(sunk, y);
     if (!moved.empty()) base += sunk;
@@ -118,12 +120,13 @@ bool may_have_passed(const Edges& edges, const Grid& grid, BlockIndex block)
     if (side.edge == Edge::right ? x + size > side.innermost() : x - h < side.innermost()) return true;
   return y - h < edges.base;
 }
-} // namespace
-
+/// Name of an edge for people.
 std::string edge_name(Edge edge)
 {
   return edge == Edge::left ? "left side" : edge == Edge::right ? "right side" : "base";
 }
+
+} // namespace
 
 Departure departure(const Model& model, std::optional<Edge> edge)
 {
@@ -138,7 +141,9 @@ Departure departure(const Model& model, std::optional<Edge> edge)
   return sum;
 }
 
-std::vector<Leaving> Departures::find() const
+/// Particles that have passed an edge, by index. Only blocks near an edge are looked at, since this is done
+/// every few steps.
+std::vector<Leaving> Departures::find_leaving() const
 {
   const Domain& main = *model_.main;
   const Edges edges(model_, session_.case_file);
@@ -160,7 +165,7 @@ std::vector<Leaving> Departures::find() const
 bool Departures::take_out(double time)
 {
   lose_gauges(time);
-  const std::vector<Leaving> leaving = find();
+  const std::vector<Leaving> leaving = find_leaving();
   if (leaving.empty()) return false;
   const std::size_t before = model_.main->departed.size();
   model_.main->time = time;
@@ -177,15 +182,16 @@ void Departures::lose_gauges(double time)
   const Edges edges(model_, session_.case_file);
   for (std::size_t k = 0; k < main.gauges.size(); ++k)
   {
-    Gauge& t = main.gauges[k];
-    const auto edge = edges.passed({t.x, t.y, t.reference_x, t.reference_y});
+    Gauge& gauge = main.gauges[k];
+    const auto edge = edges.passed({gauge.x, gauge.y, gauge.reference_x, gauge.reference_y});
     if (!edge) continue;
-    t.x = t.y = t.velocity_x = t.velocity_y = NAN;
+    gauge.x = gauge.y = gauge.velocity_x = gauge.velocity_y = NAN;
     session_.log.warn("gauge {}: its ground passed the {} at t = {:.2f} s; from then on it has no values",
                       session_.case_file.output.gauges.points[k].name, edge_name(*edge), time);
   }
 }
 
+/// Warns when the first ground of the run leaves by an edge; `before`: how many had left until now.
 void Departures::announce(std::size_t before) const
 {
   const std::vector<Departed>& all = model_.main->departed;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "solver/stages/model.hpp"
 #include "solver/stages/session.hpp"
 
 namespace mpm
@@ -27,16 +28,13 @@ public:
   void report() const;
 
 private:
-  std::vector<Leaving> find() const;
+  std::vector<Leaving> find_leaving() const;
   void lose_gauges(double time);
   void announce(std::size_t before) const;
 
   Session& session_;
   Model& model_;
 };
-
-/// Name of an edge for people.
-std::string edge_name(Edge edge);
 
 /// Area of the undeformed ground that has left (m2) and its mass (kg per m), by an edge or by all.
 struct Departure

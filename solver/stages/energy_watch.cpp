@@ -7,29 +7,36 @@ namespace mpm
 {
 namespace
 {
-// What may be left of a energy balance that is kept well:
+// What may be left of an energy balance that is kept well.
+//
 // Of what the transfers take, the stress does work on during half a step: dt/2 f . dv, at most omega dt / 2
-// of it, and the fastest motion of the grid has omega of about c_p/h, so C/2 with C the Courant number, 1/4
-// as a rule. Of a wave's energy (omega dt)^2 is left at the ends of the energy balance: 1.5 % at the 26 cells
-// a wavelength of C = 0.5 that waves need anyway; the elastic energy of a hypoelastic law is known to a third
-// of the elastic strain, 0.1 %.
-constexpr double transfer_share = 0.25, share = 0.02;
-// An energy of a millionth of what gravity has stored in the ground is none.
+// of it. The fastest motion of the grid has omega of about c_p / h, so that this is C/2 with C the Courant
+// number, 1/4 as a rule.
+constexpr double transfer_share = 0.25;
+// Of a wave's energy (omega dt)^2 is left at the ends of the balance: 1.5 % at C = 0.5 and the 26 cells a
+// wavelength that waves need anyway. The elastic energy of a hypoelastic law is known to a third of the
+// elastic strain, 0.1 %.
+constexpr double share = 0.02;
+// A millionth of the elastic energy that gravity has stored in the ground is none.
 constexpr double negligible = 1e-6;
+// What has come from nowhere, of all that was there and came in, before a run has diverged.
 constexpr double growth_share = 0.1;
 
-double negligible_energy(const EnergyBalance& ledger)
+/// Below that a share says nothing: ground at rest has a residual of rounding alone.
+double negligible_energy(const EnergyBalance& opening)
 {
-  return negligible * ledger.elastic;
+  return negligible * opening.elastic;
 }
 } // namespace
 
-double closing_bound(const Energies& balance, const EnergyBalance& ledger)
+double closing_bound(const Energies& balance, const EnergyBalance& opening)
 {
   return share * largest_term(balance) + transfer_share * std::fabs(balance[Energy::transfer]) +
-         negligible_energy(ledger);
+         negligible_energy(opening);
 }
 
+/// Sources are what was there at the opening, what the wave and the columns brought, and what gravity did
+/// less what the static reaction held back.
 void check_growth(const Domain& domain, const Energies& e)
 {
   const double grown = unexplained_growth(e);
@@ -44,27 +51,26 @@ void check_growth(const Domain& domain, const Energies& e)
 
 void EnergyWatch::open()
 {
-  model_.for_each_domain([](Domain& domain, const std::string&) { open_energy_balance(domain); });
+  for (const auto& [part, domain] : model_.domains()) open_energy_balance(*domain);
 }
 
 void EnergyWatch::check(double time)
 {
-  model_.for_each_domain(
-      [&](Domain& domain, const std::string&)
-      {
-        const Energies e = energies_of(domain);
-        check_growth(domain, e);
-        const double left = residual(e), bound = closing_bound(e, domain.energy);
-        if (std::fabs(left) <= bound || std::count(warned_.begin(), warned_.end(), domain.name)) return;
-        warned_.push_back(domain.name);
-        session_.log.warn(
-            "{}: the energy balance does not close: {:.3g} J/m are left at t = {:.3f} s, more than the "
-            "{:.3g} J/m that the time step explains; the largest term is {:.3g} J/m. Look at "
-            "{}, and try a smaller {} or grid.spacing",
-            domain.name, left, time, bound, largest_term(e),
-            session_.options.seismic() ? "/energy of history.h5" : "energy in summary.json",
-            session_.options.safety_key());
-      });
+  for (const auto& [part, domain] : model_.domains())
+  {
+    const Energies e = energies_of(*domain);
+    check_growth(*domain, e);
+    const double left = residual(e), bound = closing_bound(e, domain->energy);
+    if (std::fabs(left) <= bound || std::count(warned_.begin(), warned_.end(), part)) continue;
+    warned_.push_back(part);
+    session_.log.warn(
+        "{}: the energy balance does not close: {:.3g} J/m are left at t = {:.3f} s, more than the "
+        "{:.3g} J/m that the time step explains; the largest term is {:.3g} J/m. Look at "
+        "{}, and try a smaller {} or grid.spacing",
+        domain->name, left, time, bound, largest_term(e),
+        session_.options.seismic() ? "/energy of history.h5" : "energy in summary.json",
+        session_.options.courant_key());
+  }
 }
 
 void EnergyWatch::report() const
@@ -81,19 +87,18 @@ void EnergyWatch::report() const
 nlohmann::json EnergyWatch::summary() const
 {
   nlohmann::json result;
-  model_.for_each_domain(
-      [&](Domain& domain, const std::string& column)
-      {
-        const Energies e = energies_of(domain);
-        nlohmann::json terms;
-        for (std::size_t k = 0; k < energy_terms.size(); ++k)
-          terms[std::string(energy_terms[k].name)] = e.value[k];
-        terms["residual"] = residual(e);
-        if (column.empty())
-          result.update(terms);
-        else
-          result[column + "_column"] = terms;
-      });
+  for (const auto& [part, domain] : model_.domains())
+  {
+    const Energies e = energies_of(*domain);
+    nlohmann::json terms;
+    for (std::size_t k = 0; k < energy_terms.size(); ++k)
+      terms[std::string(energy_terms[k].name)] = e.value[k];
+    terms["residual"] = residual(e);
+    if (is_column(part))
+      result[std::string(side_name(part)) + "_column"] = terms;
+    else
+      result.update(terms);
+  }
   return result;
 }
 } // namespace mpm

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "solver/stages/model.hpp"
 #include "solver/stages/session.hpp"
 
 namespace mpm
@@ -12,7 +13,7 @@ public:
   EnergyWatch(Session& session, Model& model) : session_(session), model_(model) {}
   /// Opens the energy balances at the start of a stage.
   void open();
-  /// Warns, once a domain, when a energy balance does not close; throws Diverged when energy has grown
+  /// Warns, once a domain, when an energy balance does not close; throws Diverged when energy has grown
   /// without a source.
   void check(double time);
   /// Tells the log where the energy went, in the model.
@@ -23,11 +24,12 @@ public:
 private:
   Session& session_;
   Model& model_;
-  std::vector<std::string> warned_; ///< domains
+  std::vector<Part> warned_; ///< of a balance that does not close
 };
 
-/// Largest residual of a energy balance that closes, J per m.
-double closing_bound(const Energies& balance, const EnergyBalance& ledger);
+/// Largest residual (J per m) of a balance that closes: 2 % of its largest term, and a quarter of what the
+/// transfers between particles and grid took. `opening` is what was there when the balance was opened.
+double closing_bound(const Energies& balance, const EnergyBalance& opening);
 
 /// Throws Diverged when more energy than a tenth of all that was there and was brought has come from nowhere.
 void check_growth(const Domain& domain, const Energies& balance);

@@ -24,6 +24,7 @@ struct Kind
 constexpr std::array kinds{Kind{"S", "horizontal", &Elastic::shear_speed, &IncomingWave::horizontal},
                            Kind{"P", "vertical", &Elastic::pressure_speed, &IncomingWave::vertical}};
 
+/// Sets what the grid carries beside what the motion brings, for one kind of wave in one material.
 void report_share(Session& session, const Material& material, const Kind& kind, double limit,
                   const MotionSpectrum& spectrum, nlohmann::json& facts)
 {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "boundaries/ground_motion/incoming_wave.hpp"
 #include "solver/stages/session.hpp"
 
 namespace mpm

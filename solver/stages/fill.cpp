@@ -7,7 +7,7 @@ namespace mpm
 {
 namespace
 {
-constexpr double rounding = 1e-9; // of a sub-cell
+constexpr double rounding = 1e-9; // of a particle spacing
 
 /// A stretch of a column that one material has, of one region or more.
 struct Stretch
@@ -17,6 +17,8 @@ struct Stretch
   std::vector<Layer> parts;
 };
 
+/// The stretches of a column of particles, from the bottom upwards. Regions of one material that touch are
+/// one, so that a line drawn within a layer leaves no trace in its particles.
 std::vector<Stretch> stretches(const Case& case_file, double left, double right)
 {
   std::vector<Stretch> all;
@@ -38,8 +40,8 @@ std::vector<Stretch> stretches(const Case& case_file, double left, double right)
 bool fill_stretch(const Stretch& s, double x, double base, double d, std::vector<Seed>& seeds)
 {
   if (s.top - s.bottom < d / 2) return false;
-  // Sub-cells [first, end) have their centres inside; a layer of half a sub-cell that holds none is one
-  // particle.
+  // Sub-cells k in [first, end) have their centres base + d (k + 1/2) inside; a layer of half a sub-cell that
+  // holds none is one particle.
   const auto first = static_cast<long>(std::ceil((s.bottom - base) / d - 0.5));
   const auto end = static_cast<long>(std::ceil((s.top - base) / d - 0.5));
   if (end <= first)
@@ -92,7 +94,8 @@ std::vector<double> corners(const Case& case_file)
   return found;
 }
 
-/// Adds the regions over [left, right], between corners.
+/// Adds the regions over [left, right], between corners: surfaces are straight there, but for hills, and the
+/// midpoint rule is exact for straight ones.
 void add_piece(const Case& case_file, double left, double right, std::vector<Drawn>& regions)
 {
   constexpr int samples = 2;

@@ -6,12 +6,12 @@
 
 namespace mpm
 {
-/// A particle to be: place in m, volume in m3 per m of width, and the place of its material in
-/// Case::materials.
+/// A particle to be.
 struct Seed
 {
-  double x, y, volume;
-  int material;
+  double x, y;   ///< m
+  double volume; ///< m3 per m of width
+  int material;  ///< index in Case::materials
 };
 
 /// A part of the domain, m.

@@ -28,6 +28,7 @@ double spacing_for(const Case& case_file, double thickness)
   return std::floor(h / unit * (1 + 1e-9)) * unit;
 }
 
+/// The refusal of a region that is drawn and has no particle, with cells that would give it one.
 std::string lost_wholly(const Case& case_file, std::size_t region, const Drawn& drawn)
 {
   const double thickness = drawn.area / drawn.length;
@@ -40,6 +41,8 @@ std::string lost_wholly(const Case& case_file, std::size_t region, const Drawn& 
                      spacing_for(case_file, std::min(thickness, drawn.length)));
 }
 
+/// Particles come in whole columns and layers in whole particles, so that small regions differ from their
+/// drawing, and thin ones vanish over a part of their length.
 void warn_of_differences(Log& log, const Case& case_file, std::size_t region, const Drawn& drawn,
                          const RegionFilling& got)
 {
@@ -56,6 +59,8 @@ void warn_of_differences(Log& log, const Case& case_file, std::size_t region, co
            name_of(case_file, region), got.area, drawn.area, 100 * off, lost);
 }
 
+/// The spline of a particle reaches two cells, so that the two sides of a thin layer share nodes and hold
+/// each other (cases/verification/sliding_block measures by how much).
 void warn_of_thinness(Log& log, const Case& case_file, std::size_t region, const RegionFilling& got)
 {
   const Material& material = case_file.materials[case_file.regions[region].material];
@@ -69,6 +74,8 @@ void warn_of_thinness(Log& log, const Case& case_file, std::size_t region, const
       name_of(case_file, region), cells, cells_to_yield);
 }
 
+/// A compliant base carries the ground above it by the faces of its lowest particles: where there are none,
+/// ground that comes there has nothing to lie on.
 void warn_of_bare_base(Log& log, const Case& case_file, const Span& bare)
 {
   if (bare.length == 0 || case_file.seismic.duration == 0 || case_file.seismic.base == BaseKind::fixed)

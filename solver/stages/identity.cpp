@@ -1,8 +1,8 @@
-// What makes a run this run and no other: its settings with every default written out. Left out is what
-// changes no result, or is told by something else that is in.
+#include "solver/stages/identity.hpp"
 
 #include "io/case/units.hpp"
-#include "solver/stages/session.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -12,8 +12,7 @@ namespace mpm
 {
 namespace
 {
-constexpr std::string_view horizontal = "seismic.motion.horizontal", vertical = "seismic.motion.vertical";
-
+/// Whether a key says what the ground is, before anything is done to it.
 bool shapes_ground(std::string_view key)
 {
   return std::ranges::any_of(std::array<std::string_view, 6>{"grid.", "domain.", "surfaces.", "regions",
@@ -30,7 +29,7 @@ bool is_label(std::string_view key)
 /// Where a record comes from and how it is written: the motion's digest tells what was made of it.
 bool tells_record(std::string_view key)
 {
-  return key.starts_with(horizontal) || key.starts_with(vertical);
+  return key.starts_with(horizontal_record) || key.starts_with(vertical_record);
 }
 
 /// A number to 15 digits: 70 cm and 0.7 m are one length, though the one is 0.7000000000000001 m in binary.
@@ -71,12 +70,12 @@ RunFolder::Identity seismic_settings(const Case& case_file)
   RunFolder::Identity identity{{"stage", "seismic"}};
   for (const auto& [key, value] : case_file.settings)
   {
-    const bool when_not_what = key.starts_with("output.checkpoint.");
+    const bool changes_no_result = key.starts_with("output.checkpoint.");
     const bool of_the_state = key.starts_with("static.") && key != "static.gravity"; // its digest tells it
-    if (is_label(key) || when_not_what || of_the_state || tells_record(key)) continue;
-    const bool counts = key == "seismic.duration"; // it may have been told otherwise
+    if (is_label(key) || changes_no_result || of_the_state || tells_record(key)) continue;
+    const bool resolved_late = key == "seismic.duration"; // "record + 10 s" depends on the record
     identity.emplace_back(
-        key, rounded(counts ? quantity_text(case_file.seismic.duration, Dimension::time) : value));
+        key, rounded(resolved_late ? quantity_text(case_file.seismic.duration, Dimension::time) : value));
   }
   return identity;
 }
@@ -89,33 +88,5 @@ std::vector<std::string> ground_settings(const Case& case_file)
   for (const auto& [key, value] : edges(case_file)) lines.push_back(key + " = " + value);
   std::ranges::sort(lines);
   return lines;
-}
-
-std::string Session::resolved_case() const
-{
-  Settings settings;
-  for (const auto& [key, value] : case_file.settings) settings.set(key, value);
-  for (const auto& [key, file] :
-       {std::pair{horizontal, options.motion}, std::pair{vertical, options.vertical}})
-  {
-    const std::string record(key);
-    if (!file.empty())
-    {
-      for (const auto& [path, value] : case_file.settings)
-        if (path.starts_with(record)) settings.drop(path);
-      settings.set(record + ".file", std::filesystem::absolute(file).string());
-      settings.set(record + ".format", options.record_format.empty() ? "auto" : options.record_format);
-      if (std::isfinite(options.record_dt))
-        settings.set(record + ".dt", quantity_text(options.record_dt, Dimension::time));
-      if (!options.record_unit.empty()) settings.set(record + ".unit", options.record_unit);
-      const std::string& component = key == vertical ? options.vertical_component : options.record_component;
-      if (!component.empty()) settings.set(record + ".component", component);
-      settings.set(record + ".scale", "1");
-    }
-    for (const auto& [path, value] : settings.entries())
-      if (path == record + ".scale") settings.set(path, number_text(std::stod(value) * options.scale));
-  }
-  return fmt::format("# every default written out by {} {}\n", options.program, provenance().version) +
-         to_yaml(settings.entries());
 }
 } // namespace mpm

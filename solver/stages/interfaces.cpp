@@ -79,7 +79,8 @@ private:
   std::vector<std::size_t> begin_; ///< first seed of each column, and one past the last
 };
 
-/// A material with the moduli of a mixture; itself if its law does not admit them.
+/// A material with the moduli of a mixture, harmonic means of G and of M = lambda + 2 G:
+/// 1/G = sum s_m / G_m, 1/M = sum s_m / M_m; itself if its law does not admit them.
 Material mix(const std::vector<Material>& materials, int own, const std::vector<int>& shares, double spacing)
 {
   double shear = 0, pressure = 0; // compliances, 1/Pa

@@ -1,6 +1,5 @@
 #include "solver/stages/model.hpp"
 
-#include "boundaries/frozen_images.hpp"
 #include "solver/mpm/parallel.hpp"
 #include "solver/mpm/step.hpp"
 #include "solver/stages/interfaces.hpp"
@@ -12,7 +11,8 @@ namespace mpm
 {
 namespace
 {
-/// Puts seeds, grouped by material, into a domain whose grid is set up.
+/// Puts seeds, grouped by material, into a domain whose grid is set up. The order within a material is that
+/// of the seeds, and with it the ids.
 void plant(Domain& domain, const std::vector<Material>& materials, std::vector<Seed> seeds)
 {
   std::stable_sort(seeds.begin(), seeds.end(),
@@ -41,71 +41,25 @@ std::unique_ptr<FreeFieldColumn> make_column(const Case& case_file, const std::v
     if (in_outer_row(std::fabs(seed.x - side), size)) rows.push_back(seed);
   if (rows.empty()) return nullptr;
   auto domain = std::make_unique<Domain>();
-  domain->name = edge == Edge::left ? "left column" : "right column";
+  domain->name = std::string(side_name(edge)) + " column";
   domain->grid.spacing = case_file.grid.spacing;
   domain->grid.origin_x = edge == Edge::left ? side : side - case_file.grid.spacing;
   domain->grid.origin_y = case_file.domain.bottom;
-  domain->grid.wrapped = true;
+  domain->grid.wrapped = true; // the column goes on sideways for ever
   plant(*domain, materials, rows);
   sort_particles(*domain);
   return std::make_unique<FreeFieldColumn>(std::move(domain), side);
 }
 
-int cells_across(const Case& case_file)
-{
-  return static_cast<int>(std::lround(case_file.domain.width() / case_file.grid.spacing));
-}
-
-Wall bottom_wall()
-{
-  return {Direction::y, 0, 1, false};
-}
-Wall left_wall()
-{
-  return {Direction::x, 0, 1, true};
-}
-Wall right_wall(const Case& case_file)
-{
-  return {Direction::x, cells_across(case_file), -1, true};
-}
-
-void add_walls(Domain& domain, std::span<const Wall> walls)
-{
-  for (const Wall& wall : walls) domain.boundaries.push_back(std::make_unique<MirroredWall>(wall));
-}
-
-/// Nothing moves, and displacements count from here.
-void come_to_rest(Domain& domain)
-{
-  Particles& p = domain.particles;
-  p.reference_x = p.x;
-  p.reference_y = p.y;
-  for (auto* values : {&p.velocity_x, &p.velocity_y, &p.affine_xx, &p.affine_xy, &p.affine_yx, &p.affine_yy})
-    std::fill(values->begin(), values->end(), 0.0);
-}
-
-/// Walls that stay, images for those that leave, and the compliant base, which is returned (null: there is
-/// none).
-CompliantBase* switch_boundaries(Domain& domain, const Case& case_file, std::span<const Wall> leaving,
-                                 std::span<const Wall> staying,
-                                 const std::shared_ptr<const IncomingWave>& wave, BaseSpring spring,
-                                 bool restarting)
-{
-  Images images;
-  if (!restarting) images = make_images(domain, leaving);
-  domain.boundaries.clear();
-  domain.boundaries.push_back(std::make_unique<FrozenImages>(std::move(images)));
-  add_walls(domain, staying);
-  if (case_file.seismic.base == BaseKind::fixed) return nullptr;
-  std::vector<Face> faces;
-  if (!restarting)
-    faces = find_faces(domain, Edge::bottom, case_file.domain.bottom, case_file.grid.particle_spacing());
-  auto base = std::make_unique<CompliantBase>(std::move(faces), wave, std::move(spring));
-  CompliantBase* const result = base.get();
-  domain.boundaries.push_back(std::move(base));
-  return result;
-}
 } // namespace
+
+std::vector<Model::Member> Model::domains() const
+{
+  std::vector<Member> all{{Part::ground, main.get()}};
+  if (left) all.push_back({Part::left_column, left->domain.get()});
+  if (right) all.push_back({Part::right_column, right->domain.get()});
+  return all;
+}
 
 Model make_model(const Case& case_file)
 {
@@ -128,95 +82,30 @@ Model make_model(const Case& case_file)
     model.left = make_column(case_file, materials, seeds, Edge::left);
     model.right = make_column(case_file, materials, seeds, Edge::right);
   }
-  model.for_each_domain([&](Domain& domain, const std::string&)
-                        { domain.settings.average_volume = case_file.grid.average_volume; });
+  for (const auto& [part, domain] : model.domains())
+    domain->settings.average_volume = case_file.grid.average_volume;
   return model;
-}
-
-void add_static_boundaries(Model& model, const Case& case_file)
-{
-  model.for_each_domain(
-      [&](Domain& domain, const std::string& column)
-      {
-        std::vector<Wall> walls{bottom_wall()};
-        if (column.empty()) walls.insert(walls.end(), {left_wall(), right_wall(case_file)});
-        add_walls(domain, walls);
-        domain.settings.local_damping = case_file.static_stage.damping;
-        rebuild(domain);
-      });
-}
-
-void add_seismic_boundaries(Model& model, const Case& case_file, std::shared_ptr<const IncomingWave> wave,
-                            bool restarting)
-{
-  const bool fixed = case_file.seismic.base == BaseKind::fixed,
-             roller = case_file.seismic.sides == SideKind::roller;
-  model.for_each_domain(
-      [&](Domain& domain, const std::string& column)
-      {
-        std::vector<Wall> leaving, staying;
-        (fixed ? staying : leaving).push_back(bottom_wall());
-        if (column.empty())
-        {
-          auto& walls = roller ? staying : leaving;
-          walls.insert(walls.end(), {left_wall(), right_wall(case_file)});
-        }
-        domain.settings.local_damping = 0;
-        domain.settings.consistent_inertia = case_file.seismic.inertia == Inertia::consistent;
-        domain.settings.gravity_y = -case_file.static_stage.gravity;
-        domain.settings.plastic = true;
-        // A column goes where the input takes it, with nothing on one side of it that could push it away.
-        const BaseSpring spring(column.empty() ? spring_time(case_file) : 0);
-        CompliantBase* const base =
-            switch_boundaries(domain, case_file, leaving, staying, wave, spring, restarting);
-        if (column.empty())
-          model.base = base;
-        else
-          (column == "left" ? model.left : model.right)->compliant_base = base;
-      });
-  if (!roller)
-    for (const Edge edge : {Edge::left, Edge::right})
-    {
-      const FreeFieldColumn* column = (edge == Edge::left ? model.left : model.right).get();
-      auto side = std::make_unique<FreeFieldSide>(edge, column, wave);
-      const double position = edge == Edge::left ? case_file.domain.left : case_file.domain.right;
-      if (!restarting)
-        side->begin(*model.main, position, case_file.domain.bottom, case_file.grid.particle_spacing());
-      model.sides.push_back(side.get());
-      model.main->boundaries.push_back(std::move(side));
-    }
-  if (restarting) return;
-  model.for_each_domain(
-      [](Domain& domain, const std::string&)
-      {
-        come_to_rest(domain);
-        sort_particles(domain);
-      });
 }
 
 std::vector<FreeFieldBase> free_field_base(const Model& model)
 {
   std::vector<FreeFieldBase> result;
-  for (const FreeFieldColumn* column : {model.left.get(), model.right.get()})
-    if (column) result.push_back(column->base());
+  for (const Edge side : both_sides)
+    if (const FreeFieldColumn* column = model.column(side)) result.push_back(column->base());
   return result;
 }
 
-double spring_time(const Case& case_file)
+// sum |sigma_xx - sigma_xx,column| / sum |sigma_xx,column| over the outermost column of particles.
+double side_stress_mismatch(const Model& model, const Case& case_file, Edge side)
 {
-  return case_file.seismic.spring.value_or(case_file.longest_period());
-}
-
-double side_stress_mismatch(const Model& model, const Case& case_file, Edge edge)
-{
-  const FreeFieldColumn* column = (edge == Edge::left ? model.left : model.right).get();
+  const FreeFieldColumn* column = model.column(side);
   if (!column) return 0;
   const Particles &p = model.main->particles, &q = column->domain->particles;
-  const double side = edge == Edge::left ? case_file.domain.left : case_file.domain.right;
+  const double position = side == Edge::left ? case_file.domain.left : case_file.domain.right;
   double difference = 0, scale = 0;
   for (int k = 0; k < p.size(); ++k)
   {
-    if (!in_outer_row(std::fabs(p.reference_x[k] - side), case_file.grid.particle_spacing())) continue;
+    if (!in_outer_row(std::fabs(p.reference_x[k] - position), case_file.grid.particle_spacing())) continue;
     const double wanted = q.stress_xx[column->particle_of_row(column->row_near(p.reference_y[k]))];
     difference += std::fabs(p.stress_xx[k] - wanted);
     scale += std::fabs(wanted);
@@ -224,6 +113,8 @@ double side_stress_mismatch(const Model& model, const Case& case_file, Edge edge
   return scale > 0 ? difference / scale : 0;
 }
 
+// The base's spring pulls towards where the free field stands at the start of the step, and the sides need
+// the columns' stress of the start and their motion over the step: both before the ground takes its own step.
 void advance(Model& model, double time, double dt)
 {
   if (model.base) model.base->follow(free_field_base(model));
@@ -242,42 +133,5 @@ void advance(Model& model, double time, double dt)
   model.main->measures.times.end(Phase::columns);
   model.main->time = time;
   step(*model.main, dt);
-}
-
-void scale_masses(Model& model)
-{
-  const auto& materials = model.main->materials;
-  const auto& begin = model.main->material_begin;
-  double slowest = std::numeric_limits<double>::infinity();
-  for (std::size_t m = 0; m < materials.size(); ++m)
-    if (begin[m + 1] > begin[m]) slowest = std::min(slowest, materials[m].elastic().pressure_speed());
-  model.for_each_domain(
-      [&](Domain& domain, const std::string&)
-      {
-        for (Material& material : domain.materials)
-          material.mass_scale = std::pow(material.elastic().pressure_speed() / slowest, 2);
-      });
-}
-
-double greatest_wave_speed(const Domain& domain)
-{
-  const Particles& p = domain.particles;
-  double greatest = 0;
-  for (std::size_t m = 0; m < domain.materials.size(); ++m)
-  {
-    const Material& material = domain.materials[m];
-    const int begin = domain.material_begin[m];
-    const auto* torn = material.field("opening");
-    double lightest = std::numeric_limits<double>::infinity();
-    for (int k = begin; k < domain.material_begin[m + 1]; ++k)
-    {
-      // The volume that a torn point will have when it has closed and carries pressure again.
-      const double opening = torn != nullptr ? (*torn)[k - begin] : 0;
-      const double closed = opening > 0 ? p.volume[k] * std::exp(-opening) : p.volume[k];
-      lightest = std::min(lightest, material.mass_scale * p.mass[k] / closed);
-    }
-    greatest = std::max(greatest, std::sqrt(material.elastic().p_modulus() / lightest));
-  }
-  return greatest;
 }
 } // namespace mpm

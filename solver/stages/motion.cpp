@@ -13,8 +13,11 @@ namespace mpm
 namespace
 {
 constexpr double most_samples = 2e7; // of /motion, 800 MB
-constexpr double much = 0.05; // of the Arias intensity: what lies outside its significant duration at one end
+// Of the Arias intensity, pi/2g times the integral of a^2: as much lies outside the significant duration
+// D5-95 at either end, so that a run which leaves out more cuts into the strong shaking.
+constexpr double much = 0.05;
 
+/// The program's own synthetic motion is kept as text in PEER's format, and read as any other.
 Record read(const MotionSource& source)
 {
   if (source.built_in()) return parse_record(built_in_motion, {.file = "built_in.AT2", .format = "peer"});
@@ -27,7 +30,9 @@ std::string_view si_unit_of(Quantity quantity)
   return quantity == Quantity::velocity ? "m/s" : "m";
 }
 
-/// Tells motions apart by what is made of them: the samples in SI units, scaled, and their processing.
+/// Tells motions apart by what is made of them: the samples in SI units, scaled, and their processing. The
+/// same motion from a file of another name, format or unit is then the same run, and another scale is
+/// another.
 std::string identity_of(const Record& record, const MotionProcessing& processing)
 {
   std::vector<double> samples{record.dt};
@@ -64,6 +69,8 @@ nlohmann::json change(double before, double after)
   return before > 0 ? nlohmann::json(after / before - 1) : nlohmann::json();
 }
 
+/// What summary.json tells of a component: the record, and what its correction changed. Measures are of the
+/// kind of the record, before the halving of an outcrop, so that they can be compared with a catalogue's.
 nlohmann::json facts_of(const Record& record, const MotionProcessing& processing, const MotionReport& report)
 {
   const MotionMeasures &before = report.recorded, &after = report.corrected;
@@ -91,6 +98,7 @@ nlohmann::json facts_of(const Record& record, const MotionProcessing& processing
             {"spectrum_greatest_change_period", spectrum.period}}}};
 }
 
+/// The measures that an engineer looks at first, in one line.
 std::string words(const MotionMeasures& m)
 {
   return fmt::format(
@@ -98,6 +106,7 @@ std::string words(const MotionMeasures& m)
       m.pga / standard_gravity, m.pga_time, m.pgv, m.pgd, m.arias, m.d5_95);
 }
 
+/// What baseline, filter and taper changed: they are to take drift away and to leave the shaking alone.
 void report_correction(Session& session, const std::string& component, const MotionProcessing& processing,
                        const MotionReport& r)
 {
@@ -142,6 +151,8 @@ void report_applied(Session& session, const std::string& component, const Ground
       whole.pga / standard_gravity, whole.pga_time, motion.duration());
 }
 
+/// Reads one component, from the command line (`replacement`) or the case (`source`), and makes the wave of
+/// it; notes facts, identity and title in `motion`. Empty: there is none.
 std::optional<GroundMotion> load(Session& session, const std::string& component,
                                  std::optional<MotionSource> source, const std::string& replacement,
                                  Motion& motion)
@@ -163,7 +174,7 @@ std::optional<GroundMotion> load(Session& session, const std::string& component,
   {
     result = make_ground_motion(record, processing);
   }
-  catch (const std::runtime_error& error)
+  catch (const std::runtime_error& error) // a setting that does not fit the record
   {
     throw Error(exit_code::bad_input, error.what());
   }
@@ -202,7 +213,7 @@ void check_samples(const Session& session, const IncomingWave& wave)
           duration, step, most_samples));
 }
 
-/// The run's length, where it goes with the record.
+/// `seismic.duration: record + 10 s`: the run's length is known when the records are.
 void settle_duration(Session& session, const IncomingWave& wave)
 {
   SeismicSettings& seismic = session.case_file.seismic;
@@ -232,6 +243,8 @@ void report_what_was_applied(Session& session, const Motion& motion, double unti
                        words(measures_applied(**part, wave.fade, until)));
 }
 
+/// In this order: records are read and corrected, the run's length may follow from them, and what is applied
+/// until then is reported.
 Motion load_motion(Session& session)
 {
   const SeismicSettings& seismic = session.case_file.seismic;
@@ -265,11 +278,14 @@ Motion load_motion(Session& session)
   return motion;
 }
 
+// `end: 12 s` means that nothing comes any more at 12 s.
 Fade planned_fade(const MotionSettings& settings)
 {
   return settings.end == MotionEnd::time ? Fade{settings.end_time - Fade::length} : Fade{};
 }
 
+// Samples are those of the upgoing wave; 1 / share makes them the record's kind again, twice that of an
+// outcrop.
 MotionMeasures measures_applied(const GroundMotion& motion, const Fade& fade, double until)
 {
   const GroundMotion samples =
@@ -277,6 +293,8 @@ MotionMeasures measures_applied(const GroundMotion& motion, const Fade& fade, do
   return measure(samples.velocity, samples.acceleration, samples.dt, 1 / motion.report.share);
 }
 
+/// The step is one at which acceleration may be taken as straight between samples, so that a reader can
+/// integrate it to the velocities beside it.
 void write_motion(h5::File& file, const IncomingWave& wave, double step, double until)
 {
   if (const double common = common_step(wave); common > 0) step = common;

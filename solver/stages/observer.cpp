@@ -1,5 +1,6 @@
 #include "solver/stages/observer.hpp"
 
+#include "io/results/checkpoint_layout.hpp"
 #include "io/results/frames.hpp"
 #include "solver/stages/motion.hpp"
 
@@ -10,6 +11,7 @@ namespace mpm
 {
 namespace
 {
+/// Since the start of the stage, m.
 std::array<double, 2> displacement_of(const Domain& domain, int k)
 {
   const Particles& p = domain.particles;
@@ -21,7 +23,9 @@ std::array<double, 2> velocity_of(const Domain& domain, int k)
   return {domain.particles.velocity_x[k], domain.particles.velocity_y[k]};
 }
 
-/// Scalar or tensor field of all particles, in their order.
+/// A field of a frame by its name, for all particles in their order: displacement, velocity, what each
+/// particle has (particle_fields), or a history variable of a law, 0 where the particle's law has none.
+/// Vectors have three components, as VTK wants them.
 Frame::Field frame_field(const Domain& domain, const std::string& name)
 {
   const Particles& p = domain.particles;
@@ -47,6 +51,7 @@ Frame::Field frame_field(const Domain& domain, const std::string& name)
     if (name == "stress") result.component_names = {"xx", "yy", "zz", "xy"};
     return result;
   }
+  // A history variable: each material keeps those of its own particles.
   Frame::Field result{name, "1", 1, std::vector<double>(count, 0.0)};
   for (std::size_t m = 0; m < domain.materials.size(); ++m)
   {
@@ -61,7 +66,8 @@ Frame::Field frame_field(const Domain& domain, const std::string& name)
   }
   return result;
 }
-/// Mean pressure and Mises stress out of the stresses of a frame.
+
+/// p = -tr(sigma) / 3 and q = sqrt(3 J2) out of the stresses of a frame.
 std::vector<Frame::Field> invariants_of(const Frame::Field& stress)
 {
   Frame::Field p{"p", "Pa", 1,
@@ -84,6 +90,7 @@ Observer::Observer(Session& session, Model& model, const IncomingWave& wave)
   add_series();
 }
 
+/// Names every series of history.h5, before its first row; a checkpoint's must be the same.
 void Observer::add_series()
 {
   const Axis component{"component", {"x", "y"}};
@@ -98,13 +105,12 @@ void Observer::add_series()
     velocity_ = history_.add_series("gauges/velocity", "m/s", {gauge, component}, fast_);
     acceleration_ = history_.add_series("gauges/acceleration", "m/s2", {gauge, component}, fast_);
   }
-  for (const auto& [name, column] :
-       {std::pair{"left", model_.left.get()}, std::pair{"right", model_.right.get()}})
+  for (const Edge side : both_sides)
   {
+    const FreeFieldColumn* column = model_.column(side);
     if (!column) continue;
-    const std::string group = std::string("free_field/") + name + "/";
-    sides_.push_back({name, column,
-                      history_.add_series(group + "surface_displacement", "m", {component}, fast_),
+    const std::string group = fmt::format("free_field/{}/", side_name(side));
+    sides_.push_back({column, history_.add_series(group + "surface_displacement", "m", {component}, fast_),
                       history_.add_series(group + "surface_velocity", "m/s", {component}, fast_),
                       history_.add_series(group + "base_displacement", "m", {component}, fast_),
                       history_.add_series(group + "base_velocity", "m/s", {component}, fast_)});
@@ -120,24 +126,23 @@ void Observer::add_series()
 
 void Observer::add_energy_series()
 {
-  model_.for_each_domain(
-      [&](Domain& domain, const std::string& column)
-      {
-        const std::string group = column.empty() ? "energy/" : "energy/" + column + "/";
-        EnergySeries ledger{&domain, {}, 0};
-        for (std::size_t k = 0; k < energy_terms.size(); ++k)
-          ledger.terms[k] = history_.add_series(group + std::string(energy_terms[k].name), "J/m", {}, slow_);
-        ledger.residual = history_.add_series(group + "residual", "J/m", {}, slow_);
-        energy_series_.push_back(ledger);
-      });
+  for (const auto& [part, domain] : model_.domains())
+  {
+    const std::string group = group_in("energy", part) + "/";
+    EnergySeries series{domain, {}, 0};
+    for (std::size_t k = 0; k < energy_terms.size(); ++k)
+      series.terms[k] = history_.add_series(group + std::string(energy_terms[k].name), "J/m", {}, slow_);
+    series.residual = history_.add_series(group + "residual", "J/m", {}, slow_);
+    energy_series_.push_back(series);
+  }
 }
 
 void Observer::place_gauges()
 {
   const Case& case_file = session_.case_file;
   Domain& main = *model_.main;
-  // A gauge belongs to the material point that was at its place in the undeformed ground: it stands where the
-  // nearest particle has settled to, and its displacement counts from there.
+  // A gauge belongs to the material point that was at its position in the undeformed ground: it moves by what
+  // the nearest particle has settled, and its displacement counts from there.
   for (const GaugePoint& point : case_file.output.gauges.points)
   {
     const double y = std::min(point.y, case_file.ground_height(point.x));
@@ -162,20 +167,24 @@ void Observer::look(const Clock& clock, bool first)
   if (first || clock.passed(output.frames.every)) write_frame(clock);
 }
 
+/// The end of a run is a sample and a frame, whatever the intervals: pictures and summary show the same
+/// state.
 void Observer::look_last(const Clock& clock)
 {
   if (history_.times(slow_).back() < clock.time()) sample_slide(clock);
   if (frames_.back().time < clock.time()) write_frame(clock);
 }
 
+/// Displacement, velocity and, from the last sample's velocity, the mean acceleration since then: of a step
+/// it would hold the noise of the grid. Surface and base of the columns go with them.
 void Observer::sample_gauges(const Clock& clock)
 {
   history_.start_row(clock.time(), fast_);
   std::vector<double> u, v, a;
-  for (const Gauge& t : model_.main->gauges)
+  for (const Gauge& gauge : model_.main->gauges)
   {
-    u.insert(u.end(), {t.x - t.reference_x, t.y - t.reference_y});
-    v.insert(v.end(), {t.velocity_x, t.velocity_y});
+    u.insert(u.end(), {gauge.x - gauge.reference_x, gauge.y - gauge.reference_y});
+    v.insert(v.end(), {gauge.velocity_x, gauge.velocity_y});
   }
   const double interval = clock.time() - last_time_;
   for (std::size_t k = 0; k < v.size(); ++k)
@@ -210,11 +219,11 @@ void Observer::sample_slide(const Clock& clock)
 
 void Observer::sample_energy()
 {
-  for (const EnergySeries& ledger : energy_series_)
+  for (const EnergySeries& series : energy_series_)
   {
-    const Energies e = energies_of(*ledger.domain);
-    for (std::size_t k = 0; k < energy_terms.size(); ++k) history_.record(ledger.terms[k], e.value[k]);
-    history_.record(ledger.residual, residual(e));
+    const Energies e = energies_of(*series.domain);
+    for (std::size_t k = 0; k < energy_terms.size(); ++k) history_.record(series.terms[k], e.value[k]);
+    history_.record(series.residual, residual(e));
   }
 }
 
@@ -229,6 +238,8 @@ void Observer::sample_base()
   history_.record(greatest_drift_, drift.greatest);
 }
 
+/// A frame needs position, material and volume of each particle, whatever fields the case asks for: pictures
+/// draw particles as large as they are.
 void Observer::write_frame(const Clock& clock)
 {
   const Domain& main = *model_.main;
@@ -248,7 +259,7 @@ void Observer::write_frame(const Clock& clock)
   for (std::size_t m = 0; m < main.materials.size(); ++m)
     std::fill(frame.materials.begin() + main.material_begin[m],
               frame.materials.begin() + main.material_begin[m + 1],
-              main.materials[m].origin < 0 ? m : main.materials[m].origin);
+              main.materials[m].origin < 0 ? m : main.materials[m].origin); // a mixture is its owner's
   for (const Material& material : session_.case_file.materials) frame.material_names.push_back(material.name);
   const std::string name = frame_name(static_cast<std::int64_t>(frames_.size()));
   const std::string digest = mpm::write_frame(*session_.folder / name, frame, session_.provenance());
@@ -258,7 +269,7 @@ void Observer::write_frame(const Clock& clock)
 
 void Observer::save(h5::File& file) const
 {
-  h5::Group group = file.create_group("output");
+  h5::Group group = file.create_group(checkpoint::output);
   h5::Group rows = group.create_group("history");
   history_.save(rows);
   std::vector<double> times;
@@ -276,6 +287,7 @@ void Observer::save(h5::File& file) const
   slide_.save(slide);
 }
 
+/// The list by which ParaView opens all frames as one series in time.
 void Observer::write_frame_times() const
 {
   std::vector<std::pair<std::string, double>> times;
@@ -300,8 +312,8 @@ nlohmann::json Observer::summary() const
   const auto& points = session_.case_file.output.gauges.points;
   for (std::size_t g = 0; g < points.size(); ++g)
   {
-    const Gauge& t = model_.main->gauges[g];
-    gauges[points[g].name] = {{"displacement", {t.x - t.reference_x, t.y - t.reference_y}}};
+    const Gauge& gauge = model_.main->gauges[g];
+    gauges[points[g].name] = {{"displacement", {gauge.x - gauge.reference_x, gauge.y - gauge.reference_y}}};
   }
   nlohmann::json result{{"slide", slide_.summary()}, {"gauges", gauges}};
   if (!model_.base) return result;

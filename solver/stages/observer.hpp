@@ -1,6 +1,7 @@
 #pragma once
 
 #include "io/results/history.hpp"
+#include "solver/stages/clock.hpp"
 #include "solver/stages/session.hpp"
 #include "solver/stages/slide.hpp"
 
@@ -13,15 +14,17 @@ class Observer
 {
 public:
   Observer(Session& session, Model& model, const IncomingWave& wave);
-  /// Places the gauges in the ground at the start of the stage.
+  /// Places the gauges in the ground, as it stands after the static stage.
   void place_gauges();
   /// Looks at the state that the clock has just reached; `first` at the start of the stage.
   void look(const Clock& clock, bool first);
   /// Looks at the end of the stage, where it is not due anyway: slide and frame.
   void look_last(const Clock& clock);
+  /// Adds /output to a checkpoint: all rows so far, and which frames the folder holds.
   void save(h5::File& file) const;
-  /// What it wrote down until the state that the clock has reached; `first_step` is the case's dt (s).
-  /// `Error` bad_input when that cannot be, folder_taken when a frame of it is not in the folder any more.
+  /// Takes up what was written down until the state that the clock has reached; `first_step` is the case's dt
+  /// (s). `Error` bad_input when no run of the case wrote that, folder_taken when a frame of it is not in the
+  /// folder any more.
   void load(const h5::File& file, const Clock& clock, double first_step);
   /// Names of the files that it has written.
   std::vector<std::string> files() const;
@@ -32,9 +35,9 @@ public:
   nlohmann::json summary() const;
 
 private:
+  /// A free-field column and its series.
   struct Side
   {
-    std::string name;
     const FreeFieldColumn* column;
     History::Series surface_displacement, surface_velocity, base_displacement, base_velocity;
   };
@@ -58,14 +61,14 @@ private:
   Model& model_;
   const IncomingWave& wave_;
   History history_;
-  History::Clock fast_ = 0, slow_ = 0;
+  History::Clock fast_ = 0, slow_ = 0; ///< of gauges and columns; of slide, energy and base
   History::Series displacement_ = 0, velocity_ = 0, acceleration_ = 0;
   Slide slide_;
   std::vector<EnergySeries> energy_series_;
   History::Series corner_ = 0, rotation_ = 0, greatest_drift_ = 0;
   std::vector<Side> sides_;
   std::vector<double> last_velocity_; ///< of the gauges at their last sample, m/s
-  double last_time_ = 0;
+  double last_time_ = 0;              ///< of that sample, s
   struct WrittenFrame
   {
     std::string name;

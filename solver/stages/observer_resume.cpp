@@ -1,5 +1,6 @@
 // What a run has written down, taken up again: it must be what a run of this case writes until then.
 
+#include "io/results/checkpoint_layout.hpp"
 #include "io/results/frames.hpp"
 #include "solver/stages/observer.hpp"
 
@@ -14,7 +15,9 @@ namespace
   throw Error(exit_code::bad_input, fmt::format("{}: {}; use another file", group.where(name), what));
 }
 
-/// Times of samples that are taken from the start on, never further apart than `most` (s), until `now`.
+/// A file may be whole and yet be put together of two runs: rows with a gap would make a history that no run
+/// wrote. Times of samples that are taken from the start on, never further apart than `most` (s), until
+/// `now`.
 void check_times(const h5::Group& group, const std::string& name, const std::vector<double>& times,
                  double most, double now)
 {
@@ -45,7 +48,7 @@ bool is_frame(const std::filesystem::path& file, const std::string& digest)
 
 void Observer::load(const h5::File& file, const Clock& clock, double first_step)
 {
-  const h5::Group group = file.open_group("output");
+  const h5::Group group = file.open_group(checkpoint::output);
   const OutputSettings& output = session_.case_file.output;
   history_.load(group.open_group("history"));
   check_times(group, "history", history_.times(fast_), output.gauges.every + first_step, clock.time());

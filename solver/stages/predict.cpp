@@ -8,9 +8,10 @@ namespace mpm
 {
 namespace
 {
-constexpr int probe_steps = 50;
+constexpr int probe_steps = 50;   // after a first one, which sorts
 constexpr double usual_ramps = 2; // after which a slope that stands has settled, as a rule
 
+/// Expected from the case, with particles and nodes as they have been made.
 void report_memory(Session& session, const Model& model)
 {
   CaseSize size = expected_size(session.case_file);
@@ -24,7 +25,7 @@ void report_memory(Session& session, const Model& model)
                    bytes_text(free.bytes));
 }
 
-/// Wall time of a step, s.
+/// Wall time of a step, s, as measured on the ground before anything moves.
 double probe(Model& model, const Clock& clock)
 {
   using Wall = std::chrono::steady_clock;

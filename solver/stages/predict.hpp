@@ -1,5 +1,7 @@
 #pragma once
 
+#include "solver/stages/clock.hpp"
+#include "solver/stages/model.hpp"
 #include "solver/stages/session.hpp"
 
 namespace mpm

@@ -1,6 +1,10 @@
 #include "solver/stages/relaxation.hpp"
 
+#include "io/common/signals.hpp"
 #include "solver/mpm/parallel.hpp"
+#include "solver/stages/checkpoint.hpp"
+#include "solver/stages/summary.hpp"
+#include "solver/stages/time_step.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,11 +14,13 @@ namespace mpm
 namespace
 {
 constexpr int check_every = 10;        // steps between looks at the criteria
-constexpr int held_checks = 10;        // so that they hold over 100 steps
-constexpr double handover = 10;        // elastic statics are done at this multiple of the wanted unbalance
+constexpr int held_checks = 10;        // in a row: the criteria hold over 100 steps, not by chance in one
+constexpr int health_every = 100;      // steps between looks at particles, energies and wave speeds
+constexpr double handover = 10;        // elastic statics are done at this multiple of the wanted ratios
 constexpr double creep_warning = 1e-3; // m/s
 
-/// Smooth ramp with zero slope and curvature at both ends.
+/// 10 s^3 - 15 s^4 + 6 s^5, with zero slope and curvature at both ends, so that gravity sends no wave of its
+/// own.
 double ramp(double s)
 {
   s = std::min(s, 1.0);
@@ -54,13 +60,12 @@ void Relaxation::set_phase(Phase phase)
 {
   phase_ = phase;
   held_ = 0;
-  model_.for_each_domain([&](Domain& domain, const std::string&)
-                         { domain.settings.plastic = phase == Phase::plastic; });
+  for (const auto& [part, domain] : model_.domains()) domain->settings.plastic = phase == Phase::plastic;
 }
 
-void Relaxation::load(const h5::File& file)
+void Relaxation::load(const h5::File& state)
 {
-  const h5::Group group = file.open_group("relaxation");
+  const h5::Group group = state.open_group(checkpoint::relaxation);
   const std::int64_t plastic = group.attribute_int("plastic"), held = group.attribute_int("held");
   unbalanced_ = group.attribute_double("unbalanced");
   kinetic_ = group.attribute_double("kinetic");
@@ -73,27 +78,26 @@ void Relaxation::load(const h5::File& file)
 
 void Relaxation::save(const std::string& name, const Clock& clock)
 {
-  session_.write_checkpoint(name, "static", model_, clock,
-                            [&](h5::File& file)
-                            {
-                              h5::Group group = file.create_group("relaxation");
-                              group.attribute("plastic", std::int64_t(phase_ == Phase::plastic));
-                              group.attribute("held", held_);
-                              group.attribute("unbalanced", unbalanced_);
-                              group.attribute("kinetic", kinetic_);
-                            });
+  write_checkpoint(session_, name, model_, clock,
+                   [&](h5::File& file)
+                   {
+                     h5::Group group = file.create_group(checkpoint::relaxation);
+                     group.attribute("plastic", std::int64_t(phase_ == Phase::plastic));
+                     group.attribute("held", held_);
+                     group.attribute("unbalanced", unbalanced_);
+                     group.attribute("kinetic", kinetic_);
+                   });
 }
 
 void Relaxation::step(Clock& clock, bool measure)
 {
   const StaticSettings& s = session_.case_file.static_stage;
   const double now = -s.gravity * ramp(clock.time() / s.ramp);
-  model_.for_each_domain(
-      [&](Domain& domain, const std::string&)
-      {
-        domain.settings.gravity_y = now;
-        domain.settings.measure_force_balance = measure;
-      });
+  for (const auto& [part, domain] : model_.domains())
+  {
+    domain->settings.gravity_y = now;
+    domain->settings.measure_force_balance = measure;
+  }
   advance(model_, clock.time(), clock.dt);
   ++clock.step;
 }
@@ -101,17 +105,19 @@ void Relaxation::step(Clock& clock, bool measure)
 void Relaxation::check(const Clock& clock)
 {
   check_particles(*model_.main, model_.reference_volume);
-  model_.for_each_domain([](Domain& domain, const std::string&) { note_gravity(domain); });
+  for (const auto& [part, domain] : model_.domains()) note_gravity(*domain);
   // While gravity begins to grow all energies are tiny, and the trapezoid of its work is coarse beside them.
   if (clock.time() >= 0.5 * session_.case_file.static_stage.ramp) energy_.check(clock.time());
 }
 
+/// Measures both ratios. In the elastic phase ten times the wanted ones will do, after which the laws may
+/// yield; elastic ground has only that phase, and its end is the end.
 bool Relaxation::converged(const Clock& clock)
 {
   const Convergence& until = session_.case_file.static_stage.until;
-  unbalanced_ = kinetic_ = 0;
-  model_.for_each_domain([&](Domain& domain, const std::string&)
-                         { unbalanced_ = std::max(unbalanced_, domain.measures.force_balance.ratio()); });
+  unbalanced_ = 0;
+  for (const auto& [part, domain] : model_.domains())
+    unbalanced_ = std::max(unbalanced_, domain->measures.force_balance.ratio());
   kinetic_ = kinetic_energy(*model_.main) / weight_;
   if (clock.time() < session_.case_file.static_stage.ramp) return false;
   const double easier = phase_ == Phase::elastic && plasticity_ ? handover : 1;
@@ -125,6 +131,7 @@ bool Relaxation::converged(const Clock& clock)
   return false;
 }
 
+/// Which criteria do not hold, for the message that the stage gave up.
 std::string Relaxation::failure() const
 {
   const Convergence& until = session_.case_file.static_stage.until;
@@ -138,7 +145,7 @@ std::string Relaxation::failure() const
   return text;
 }
 
-void Relaxation::report(const Clock& clock)
+void Relaxation::report(const Clock& clock) const
 {
   const auto [area, strain] = yielded(*model_.main);
   const double speed = greatest_speed(model_.main->particles);
@@ -150,64 +157,77 @@ void Relaxation::report(const Clock& clock)
     session_.log.warn("the ground still creeps at {:.1e} m/s: it stands barely, or not", speed);
 }
 
-int Relaxation::run(Clock& clock)
+int Relaxation::run(Clock& clock, Start start)
 {
-  const Convergence& until = session_.case_file.static_stage.until;
-  Progress progress(session_.log, {"static", model_.main->particles.size(), parallel::threads(), clock.step,
-                                   clock.time() / until.at_most});
-  const auto moment = [&]
-  {
-    return Moment{clock.time(), NAN, clock.step, kinetic_energy(*model_.main),
-                  greatest_speed(model_.main->particles)};
-  };
+  const StaticSettings& settings = session_.case_file.static_stage;
+  Progress progress(session_.log, {session_.options.stage(), model_.main->particles.size(),
+                                   parallel::threads(), clock.step, clock.time() / settings.until.at_most});
   session_.log.info("static stage: {} particles, dt = {:.3e} s, gravity in {} s",
-                    model_.main->particles.size(), clock.dt, session_.case_file.static_stage.ramp);
-  session_.loop_begins(clock.step, model_);
-  bool done = session_.at_end();
-  while (!done && clock.time() < until.at_most)
+                    model_.main->particles.size(), clock.dt, settings.ramp);
+  stop_at_a_step();
+  const Summary summary(session_, model_, clock);
+  const Ended ended = start == Start::at_end ? Ended::converged : loop(clock, progress);
+  if (ended == Ended::interrupted)
+  {
+    summary.finish(exit_code::interrupted, nlohmann::json::object());
+    return exit_code::interrupted;
+  }
+  progress.finish(moment(clock));
+  report(clock);
+  energy_.report();
+  if (ended == Ended::out_of_time)
+  {
+    session_.log.error(
+        "static stage did not converge by t = {:.1f} s:{} the slope does not stand, or static.until asks for "
+        "more than the case gives (static.until.at_most allows more time)",
+        clock.time(), failure());
+    summary.finish(exit_code::not_converged, facts());
+    return exit_code::not_converged;
+  }
+  // A final state that is whole stays as it is: what was made from it names its digest.
+  if (start != Start::at_end) save(final_name, clock);
+  summary.finish(exit_code::done, facts());
+  return exit_code::done;
+}
+
+Relaxation::Ended Relaxation::loop(Clock& clock, Progress& progress)
+{
+  const StaticSettings& settings = session_.case_file.static_stage;
+  while (clock.time() < settings.until.at_most)
   {
     const bool measure = (clock.step + 1) % check_every == 0;
     step(clock, measure);
-    if (measure) done = converged(clock);
-    if (clock.step % 100 == 0)
+    const bool done = measure && converged(clock);
+    if (clock.step % health_every == 0)
     {
       check(clock);
-      check_step(session_, model_, session_.case_file.static_stage.courant_number, clock);
+      halve_step_if_outrun(session_, model_, settings.courant_number, clock);
     }
-    if (progress.due()) progress.update(moment());
-    if (!done && (session_.must_stop() || session_.checkpoint_due()))
-    {
-      save(checkpoint_name(clock.step), clock);
-      session_.folder->prune(session_.case_file.output.checkpoint.keep);
-      if (session_.must_stop())
-      {
-        session_.finish("static", exit_code::interrupted, model_, clock, nlohmann::json::object());
-        return exit_code::interrupted;
-      }
-    }
+    if (progress.due()) progress.update(moment(clock));
+    if (done) return Ended::converged;
+    if (!session_.must_stop() && !session_.checkpoint_due()) continue;
+    save(checkpoint_name(clock.step), clock);
+    session_.folder->prune(session_.case_file.output.checkpoint.keep);
+    if (session_.must_stop()) return Ended::interrupted;
   }
-  progress.finish(moment());
-  report(clock);
-  energy_.report();
+  return Ended::out_of_time;
+}
+
+Moment Relaxation::moment(const Clock& clock) const
+{
+  return {clock.time(), NAN, clock.step, kinetic_energy(*model_.main),
+          greatest_speed(model_.main->particles)};
+}
+
+/// What summary.json tells of this stage.
+nlohmann::json Relaxation::facts() const
+{
   const auto [area, strain] = yielded(*model_.main);
-  const nlohmann::json measures{{"unbalanced", unbalanced_},
-                                {"kinetic", kinetic_},
-                                {"greatest_speed", greatest_speed(model_.main->particles)},
-                                {"yielded_area", area},
-                                {"greatest_plastic_strain", strain},
-                                {"energy", energy_.summary()}};
-  if (!done)
-  {
-    session_.log.error(
-        "static stage did not converge by t = {:.1f} s:{} the slope does not stand, or static.until "
-        "asks for more than the case_file gives (static.until.at_most allows more time)",
-        clock.time(), failure());
-    session_.finish("static", exit_code::not_converged, model_, clock, measures);
-    return exit_code::not_converged;
-  }
-  if (!session_.at_end())
-    save("final.h5", clock); // a state that is whole stays: what was made from it names it
-  session_.finish("static", exit_code::done, model_, clock, measures);
-  return exit_code::done;
+  return {{"unbalanced", unbalanced_},
+          {"kinetic", kinetic_},
+          {"greatest_speed", greatest_speed(model_.main->particles)},
+          {"yielded_area", area},
+          {"greatest_plastic_strain", strain},
+          {"energy", energy_.summary()}};
 }
 } // namespace mpm

@@ -9,7 +9,7 @@ namespace mpm
 {
 namespace
 {
-/// A particle's motion since the start of the shaking, less that of the base.
+/// Displacement since the start of the shaking (m) and velocity (m/s).
 struct Movement
 {
   double ux, uy, vx, vy;
@@ -23,18 +23,21 @@ Movement motion_of(const Domain& domain, int k)
   return {p.x[k] - p.reference_x[k], p.y[k] - p.reference_y[k], p.velocity_x[k], p.velocity_y[k]};
 }
 
+/// What the whole slope does with the earth below it: the lowest row of the left column. It is not the input
+/// itself, which a base with soft soil above follows only in part.
 Movement base_motion(const Model& model)
 {
   if (!model.left) return {};
   return motion_of(*model.left->domain, model.left->particle_of_row(0));
 }
 
+/// What a does beyond b.
 Movement relative(const Movement& a, const Movement& b)
 {
   return {a.ux - b.ux, a.uy - b.uy, a.vx - b.vx, a.vy - b.vy};
 }
 
-/// Value below which a share of the values lies.
+/// Value below which a share of the values lies; one of them, without interpolation.
 double percentile(std::vector<double> values, double share)
 {
   if (values.empty()) return 0;
@@ -43,7 +46,8 @@ double percentile(std::vector<double> values, double share)
   return *bound;
 }
 
-/// Gaps between bins that hold ground, closed by straight lines.
+/// Closes gaps between bins that hold ground by straight lines: torn ground leaves bins empty that are no
+/// holes. Left of the first such bin and right of the last there is no ground.
 void close_gaps(std::vector<double>& height)
 {
   std::size_t last = height.size();
@@ -56,13 +60,14 @@ void close_gaps(std::vector<double>& height)
   }
 }
 
-/// Number for JSON, null where there is none.
+/// Number for JSON, which has no NaN: null stands for none.
 nlohmann::json number(double value)
 {
   return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json();
 }
 } // namespace
 
+/// The component of v along u: (u . v) / |u|.
 double MovedGround::advance() const
 {
   const double length = std::hypot(displacement[0], displacement[1]);
@@ -128,6 +133,8 @@ void Slide::sample(History& history, double time)
   history.record(series_.left_mass, left.mass);
 }
 
+/// One pass over the particles. Sums of mass-weighted displacement and velocity become those of the centre of
+/// mass; the toe is on the side to which that has moved.
 MovedGround Slide::measure() const
 {
   const Domain& main = *model_.main;
@@ -156,32 +163,36 @@ MovedGround Slide::measure() const
   if (speeds.empty()) return all;
   for (auto* sum : {&all.displacement, &all.velocity})
     for (double& value : *sum) value /= all.mass;
-  const int front = all.displacement[0] >= 0 ? 1 : 0;
+  const int front = all.displacement[0] >= 0 ? 1 : 0; // to the right or to the left
   all.toe = now[front];
   all.toe_advance = std::fabs(now[front] - before[front]);
   all.velocity_99 = percentile(std::move(speeds), 0.99);
   return all;
 }
 
+/// Keeps, for each particle, since when it is out of place; one that comes back starts anew. Between samples,
+/// 0.1 s apart, the crossing is found from the distance d beyond the threshold and the rate (u . v) / |u|:
+/// t - d / rate, but not before the last sample.
 void Slide::note_out_of_place(double time)
 {
   const Domain& main = *model_.main;
   const Movement base = base_motion(model_);
-  const double departed = case_file_.output.slide.out_of_place();
+  const double threshold = case_file_.output.slide.out_of_place();
   out_of_place_since_.resize(model_.reference_volume.size(), NAN);
   for (int k = 0; k < main.particles.size(); ++k)
   {
     const Movement m = relative(motion_of(main, k), base);
     double& since = out_of_place_since_[main.particles.id[k]];
     const double far = m.distance();
-    if (far < departed) since = NAN;
-    if (far < departed || !std::isnan(since)) continue;
-    // It passed the threshold since the last sample: when, its present speed tells.
+    if (far < threshold) since = NAN;
+    if (far < threshold || !std::isnan(since)) continue;
     const double rate = (m.ux * m.vx + m.uy * m.vy) / far;
-    since = rate > 0 ? std::max(time_, time - (far - departed) / rate) : time;
+    since = rate > 0 ? std::max(time_, time - (far - threshold) / rate) : time;
   }
 }
 
+/// The time by which the first tenth of the mass that has slid by now was out of place: the crest of a slide
+/// may move seconds before its body, and single particles long before.
 double Slide::trigger_time() const
 {
   const Domain& main = *model_.main;
@@ -210,6 +221,7 @@ double Slide::trigger_time() const
   return NAN;
 }
 
+/// The top of the highest particle in each bin: its centre and half a particle spacing.
 Outline Slide::outline() const
 {
   const Particles& p = model_.main->particles;

@@ -12,9 +12,9 @@ std::string no_slide(const nlohmann::json& greatest, double moved)
 {
   const double area = greatest["value"];
   if (!(area > 0)) return fmt::format("no slide: no ground has moved more than {} m", moved);
-  return fmt::format(
-      "no slide: no ground is more than {} m from its place ({:.1f} m2 were at t = {:.2f} s, and came back)",
-      moved, area, greatest["time"].get<double>());
+  return fmt::format("no slide: no ground is more than {} m from where it was ({:.1f} m2 were at t = {:.2f} "
+                     "s, and came back)",
+                     moved, area, greatest["time"].get<double>());
 }
 } // namespace
 

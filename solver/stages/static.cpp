@@ -4,12 +4,14 @@
 //   mpm-static cases/slope/case.yaml --out run/static      goes on after an interruption
 //   mpm-static cases/slope/case.yaml --check               says what it would cost
 
+#include "solver/stages/checkpoint.hpp"
 #include "solver/stages/fidelity.hpp"
 #include "solver/stages/filling_report.hpp"
+#include "solver/stages/identity.hpp"
 #include "solver/stages/predict.hpp"
+#include "solver/stages/program.hpp"
 #include "solver/stages/relaxation.hpp"
-
-#include <utility>
+#include "solver/stages/time_step.hpp"
 
 namespace mpm
 {
@@ -18,25 +20,22 @@ namespace
 int run_static(Session& session)
 {
   const Case& case_file = session.case_file;
-  if (case_file.static_stage.gravity == 0)
+  const StaticSettings& settings = case_file.static_stage;
+  if (settings.gravity == 0)
     throw Error(exit_code::bad_input, case_file.path.string() +
                                           ": static.gravity: is 0, so there is no static state to "
                                           "find; run mpm-seismic without --from");
-  // 1. The undeformed ground between kinematic walls.
+  // 1. The undeformed ground between walls.
   Model model;
   Clock clock;
-  double shaking_step = 0;
-  bool as_new = false;
-  const auto begin = [&] // unless nothing has been done to it yet
+  double shaking_step = 0; // with which the seismic stage would carry waves, s
+  const auto begin = [&]
   {
-    if (std::exchange(as_new, true)) return;
     model = make_model(case_file);
-    clock = {};
     add_static_boundaries(model, case_file);
-    shaking_step = case_file.courant_number * case_file.grid.spacing / greatest_wave_speed(*model.main);
-    if (case_file.static_stage.mass_scaling) scale_masses(model);
-    clock.dt =
-        case_file.static_stage.courant_number * case_file.grid.spacing / greatest_wave_speed(*model.main);
+    shaking_step = step_of(case_file.courant_number, *model.main);
+    if (settings.mass_scaling) scale_masses(model);
+    clock = {.dt = step_of(settings.courant_number, *model.main)};
   };
   begin();
   report_filling(session.log, case_file, model.filling);
@@ -48,27 +47,24 @@ int run_static(Session& session)
 
   // 2. The folder: ours, finished, or to be gone on with.
   session.open_folder(static_settings(case_file));
-  if (session.finished_already()) return exit_code::done;
+  if (finished_already(session)) return exit_code::done;
   std::optional<Relaxation> relaxation;
-  const auto load = [&](const h5::File& file)
+  const Start start = resume(session, begin,
+                             [&](const h5::File& state)
+                             {
+                               relaxation.emplace(session, model);
+                               load_model(state, model, clock, settings.until.at_most);
+                               relaxation->load(state);
+                             });
+  if (start == Start::afresh)
   {
-    begin();
-    as_new = false;
-    relaxation.emplace(session, model);
-    load_model(file, model, clock, case_file.static_stage.until.at_most);
-    relaxation->load(file);
-  };
-  if (!session.resume(load))
-  {
-    begin();
     relaxation.emplace(session, model);
     relaxation->start();
   }
-
   report_wave_fidelity(session, shaking_step, nullptr);
 
   // 3. Gravity grows, the ground settles: elastic first, then plastic.
-  return relaxation->run(clock);
+  return relaxation->run(clock, start);
 }
 } // namespace
 } // namespace mpm

@@ -5,7 +5,7 @@
 
 #include "io/case/case.hpp"
 #include "solver/mpm/parallel.hpp"
-#include "solver/stages/model.hpp"
+#include "solver/stages/time_step.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -90,18 +90,17 @@ Model shaken_slope(int particles, Case& case_file)
   h = 140 / std::ceil(140 / h); // a whole number of cells
   case_file = load_case(path, {fmt::format("grid.spacing={:.17g} m", h), "grid.particles_per_cell=3"});
   Model model = make_model(case_file);
-  model.for_each_domain(
-      [&](Domain& domain, const std::string&)
-      {
-        Particles& p = domain.particles;
-        for (int k = 0; k < p.size(); ++k)
-        {
-          const double depth = case_file.ground_height(p.x[k]) - p.y[k];
-          p.stress_yy[k] = -18e3 * depth;
-          p.stress_xx[k] = p.stress_zz[k] = -9e3 * depth;
-        }
-        domain.settings.gravity_y = -case_file.static_stage.gravity;
-      });
+  for (const auto& [part, domain] : model.domains())
+  {
+    Particles& p = domain->particles;
+    for (int k = 0; k < p.size(); ++k)
+    {
+      const double depth = case_file.ground_height(p.x[k]) - p.y[k];
+      p.stress_yy[k] = -18e3 * depth;
+      p.stress_xx[k] = p.stress_zz[k] = -9e3 * depth;
+    }
+    domain->settings.gravity_y = -case_file.static_stage.gravity;
+  }
   add_static_boundaries(model, case_file);
   auto wave = std::make_shared<IncomingWave>();
   GroundMotion motion; // 0.3 m/s at 2 Hz
@@ -113,7 +112,7 @@ Model shaken_slope(int particles, Case& case_file)
   }
   wave->horizontal = motion;
   add_seismic_boundaries(model, case_file, wave, false);
-  model.for_each_domain([](Domain& domain, const std::string&) { open_energy_balance(domain); });
+  for (const auto& [part, domain] : model.domains()) open_energy_balance(*domain);
   return model;
 }
 
@@ -142,7 +141,7 @@ Run measure(int particles, int threads)
   const double before_scene = resident();
   Case case_file;
   Model model = shaken_slope(particles, case_file);
-  const double dt = case_file.courant_number * case_file.grid.spacing / greatest_wave_speed(*model.main);
+  const double dt = step_of(case_file.courant_number, *model.main);
   const int count = model.main->particles.size();
   const int batch = std::max(3, static_cast<int>(2e7 / count) / 5);
   long step = 0;
@@ -176,7 +175,7 @@ void take(int particles, int steps)
   parallel::use_threads(1);
   Case case_file;
   Model model = shaken_slope(particles, case_file);
-  const double dt = case_file.courant_number * case_file.grid.spacing / greatest_wave_speed(*model.main);
+  const double dt = step_of(case_file.courant_number, *model.main);
   for (int step = 0; step < steps; ++step) advance(model, step * dt, dt);
   fmt::print("{} particles\n{} steps\n", model.main->particles.size(), steps);
 }

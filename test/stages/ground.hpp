@@ -2,7 +2,7 @@
 // Level ground and what shakes it, for tests against closed forms.
 
 #include "io/case/case.hpp"
-#include "solver/stages/model.hpp"
+#include "solver/stages/time_step.hpp"
 #include "test/temporary_folder.hpp"
 
 #include <fmt/format.h>
@@ -14,7 +14,7 @@
 namespace mpm::test
 {
 /// A case from text.
-inline Case scene_from(const std::string& text)
+inline Case case_from(const std::string& text)
 {
   const TemporaryFolder folder;
   put(folder.path() / "case.yaml", text);
@@ -66,28 +66,27 @@ inline GroundMotion pulse(double peak, double length, double total)
 
 inline double stable_step(const Case& case_file, const Model& model)
 {
-  return case_file.courant_number * case_file.grid.spacing / greatest_wave_speed(*model.main);
+  return step_of(case_file.courant_number, *model.main);
 }
 
 /// K0 stress of level ground under gravity, exact to the particles' own spacing.
 inline void settle_at_once(Model& model, const Case& case_file)
 {
-  model.for_each_domain(
-      [&](Domain& domain, const std::string&)
+  for (const auto& [part, domain] : model.domains())
+  {
+    Particles& p = domain->particles;
+    for (std::size_t m = 0; m < domain->materials.size(); ++m)
+      for (int k = domain->material_begin[m]; k < domain->material_begin[m + 1]; ++k)
       {
-        Particles& p = domain.particles;
-        for (std::size_t m = 0; m < domain.materials.size(); ++m)
-          for (int k = domain.material_begin[m]; k < domain.material_begin[m + 1]; ++k)
-          {
-            const double rock = case_file.surfaces[0].height(0), top = case_file.ground_height(0),
-                         g = case_file.static_stage.gravity;
-            const double soil = 1800 * g * (top - std::max(p.y[k], rock)),
-                         rest = 2200 * g * std::max(0.0, rock - p.y[k]);
-            const double nu = domain.materials[m].elastic().poisson;
-            p.stress_yy[k] = -(soil + rest);
-            p.stress_xx[k] = p.stress_zz[k] = nu / (1 - nu) * p.stress_yy[k];
-          }
-      });
+        const double rock = case_file.surfaces[0].height(0), top = case_file.ground_height(0),
+                     g = case_file.static_stage.gravity;
+        const double soil = 1800 * g * (top - std::max(p.y[k], rock)),
+                     rest = 2200 * g * std::max(0.0, rock - p.y[k]);
+        const double nu = domain->materials[m].elastic().poisson;
+        p.stress_yy[k] = -(soil + rest);
+        p.stress_xx[k] = p.stress_zz[k] = nu / (1 - nu) * p.stress_yy[k];
+      }
+  }
 }
 
 /// Lets the ground find its discrete equilibrium between walls.
@@ -98,10 +97,8 @@ inline void relax(Model& model, const Case& case_file, double duration, bool gro
   for (int k = 0; k * dt < duration; ++k)
   {
     const double s = grow ? std::min(1.0, 2 * k * dt / duration) : 1;
-    model.for_each_domain(
-        [&](Domain& domain, const std::string&) {
-          domain.settings.gravity_y = -case_file.static_stage.gravity * s * s * s * (10 + s * (6 * s - 15));
-        });
+    for (const auto& [part, domain] : model.domains())
+      domain->settings.gravity_y = -case_file.static_stage.gravity * s * s * s * (10 + s * (6 * s - 15));
     advance(model, k * dt, dt);
   }
 }

@@ -32,11 +32,11 @@ struct Shaken
     model = make_model(session->case_file);
     settle_at_once(model, session->case_file);
     add_seismic_boundaries(model, session->case_file, std::make_shared<IncomingWave>(), false);
-    model.for_each_domain([](Domain& domain, const std::string&) { open_energy_balance(domain); });
+    for (const auto& [part, domain] : model.domains()) open_energy_balance(*domain);
     departures = std::make_unique<Departures>(*session, model);
   }
 
-  /// Moves all particles by what `how` says of their places (m).
+  /// Moves all particles by what `how` says of their positions (m).
   template <class How>
   void move(const How& how)
   {
@@ -57,18 +57,18 @@ struct Shaken
     return sum;
   }
 };
-using Way = std::array<double, 2>;
+using Shift = std::array<double, 2>;
 } // namespace
 
 TEST_CASE("ground that moves with its sides and its base does not leave", "[stages]")
 {
   const std::string sides = GENERATE("free_field", "quiet");
   Shaken ground("compliant", sides);
-  ground.move([](double, double) { return Way{7, -5}; }); // where a record's residual displacement takes it
+  ground.move([](double, double) { return Shift{7, -5}; }); // where a record's residual displacement takes it
   CHECK_FALSE(ground.departures->take_out(1));
-  ground.move([](double, double y) { return Way{0.6 * y, 0}; }); // the soil sways 3.6 cells over its height
+  ground.move([](double, double y) { return Shift{0.6 * y, 0}; }); // the soil sways 3.6 cells over its height
   CHECK_FALSE(ground.departures->take_out(1));
-  ground.move([](double x, double y) { return Way{x > 17 && y > 4 ? 0.4 : 0, 30}; }); // thrown up
+  ground.move([](double x, double y) { return Shift{x > 17 && y > 4 ? 0.4 : 0, 30}; }); // thrown up
   CHECK_FALSE(ground.departures->take_out(1));
   CHECK(ground.model.main->departed.empty());
 }
@@ -81,7 +81,7 @@ TEST_CASE("a side's own ground leaves when it is a cell beyond it, not before", 
   const double total = ground.area_here();
   // The upper metre slides over the lower five.
   const auto slide = [&](double, double y) {
-    return Way{(y > 5 ? 1.0 : 0.0) * (right ? 1 : -1) * (beyond + 0.25), 0};
+    return Shift{(y > 5 ? 1.0 : 0.0) * (right ? 1 : -1) * (beyond + 0.25), 0};
   };
   ground.move(slide);
   const Edge edge = right ? Edge::right : Edge::left;
@@ -89,15 +89,15 @@ TEST_CASE("a side's own ground leaves when it is a cell beyond it, not before", 
   CHECK(ground.area(edge) == Approx(beyond > 1 ? 2 * 0.25 : 0)); // two rows, one particle each
   CHECK(ground.area(Edge::bottom) == 0);
   CHECK(ground.area_here() + ground.area(edge) == Approx(total));
-  for (const int place : ground.model.main->particles.index_of)
-    CHECK(place < ground.model.main->particles.size());
+  for (const int index : ground.model.main->particles.index_of)
+    CHECK(index < ground.model.main->particles.size());
 }
 
 TEST_CASE("debris from elsewhere leaves as soon as it has passed a side", "[stages]")
 {
   const double beyond = GENERATE(-0.1, 0.1);
   Shaken ground;
-  ground.move([&](double x, double y) { return Way{x > 14 && x < 15 && y > 5 ? 5.25 + beyond : 0, 2}; });
+  ground.move([&](double x, double y) { return Shift{x > 14 && x < 15 && y > 5 ? 5.25 + beyond : 0, 2}; });
   CHECK(ground.departures->take_out(2) == (beyond > 0));
   CHECK(ground.area(Edge::right) == Approx(beyond > 0 ? 2 * 0.25 : 0));
 }
@@ -105,7 +105,7 @@ TEST_CASE("debris from elsewhere leaves as soon as it has passed a side", "[stag
 TEST_CASE("ground that falls below the base leaves by it", "[stages]")
 {
   Shaken ground;
-  ground.move([](double x, double y) { return Way{0, x > 8 && x < 10 && y > 5 ? -5.4 : 0}; });
+  ground.move([](double x, double y) { return Shift{0, x > 8 && x < 10 && y > 5 ? -5.4 : 0}; });
   CHECK(ground.departures->take_out(2));
   CHECK(ground.area(Edge::bottom) == Approx(2 * 0.5)); // of the two rows, the lower one
   CHECK(ground.session->log.warnings().size() == 1);
@@ -115,7 +115,7 @@ TEST_CASE("ground that falls below the base leaves by it", "[stages]")
 TEST_CASE("nothing passes mirrored walls", "[stages]")
 {
   Shaken ground("fixed", "roller");
-  ground.move([](double x, double) { return Way{x > 19 ? 3.0 : 0, x > 19 ? -9.0 : 0}; });
+  ground.move([](double x, double) { return Shift{x > 19 ? 3.0 : 0, x > 19 ? -9.0 : 0}; });
   CHECK_FALSE(ground.departures->take_out(2));
 }
 
@@ -126,7 +126,7 @@ TEST_CASE("the energy balance closes over a departure, and what left is in it", 
   for (int k = 0; k < main.particles.size(); ++k)
     if (main.particles.y[k] > 5) main.particles.velocity_x[k] = 3;
   main.energy.work = kinetic_energy(main); // somebody pushed it
-  ground.move([](double, double y) { return Way{y > 5 ? 4.1 : 0, y > 5 ? -0.5 : 0}; });
+  ground.move([](double, double y) { return Shift{y > 5 ? 4.1 : 0, y > 5 ? -0.5 : 0}; });
   const Energies before = energies_of(main);
   const double kinetic = kinetic_energy(main);
   REQUIRE(ground.departures->take_out(2));

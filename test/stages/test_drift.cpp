@@ -28,7 +28,7 @@ GroundMotion long_motion(double peak, double end, double offset)
 }
 
 /// Rock and soil as level_ground has them, the soil with a strength.
-std::string yielding(std::string text, const std::string& strength)
+std::string with_strength(std::string text, const std::string& strength)
 {
   const std::string soil = "soil: {model: elastic,";
   text.replace(text.find(soil), soil.size(), "soil: {model: von_mises, " + strength + ",");
@@ -44,7 +44,7 @@ void replace(std::string& text, const std::string& from, const std::string& to)
 /// A cut of 10 m in soil above 5 m of rock.
 std::string slope(const std::string& strength, const std::string& spring, double spacing)
 {
-  std::string text = yielding(level_ground(spacing, 2, 70, 5, 20, 9.81), strength);
+  std::string text = with_strength(level_ground(spacing, 2, 70, 5, 20, 9.81), strength);
   replace(text, "[0 m, 20 m], [70 m, 20 m]", "[0 m, 20 m], [30 m, 20 m], [42.5 m, 10 m], [70 m, 10 m]");
   replace(text, "base: {kind: compliant}", "base: {kind: compliant, spring: " + spring + "}");
   return text;
@@ -87,7 +87,7 @@ Shaken shake(Model& model, const Case& case_file, const IncomingWave& wave, doub
 BaseDrift shake_slope(const std::string& spring, double spacing, double duration)
 {
   const std::string strength = "strength: {peak: 65 kPa, residual: 25 kPa}, softening: {displacement: 0.2 m}";
-  const Case case_file = scene_from(slope(strength, spring, spacing));
+  const Case case_file = case_from(slope(strength, spring, spacing));
   Model model = make_model(case_file);
   relax(model, case_file, 16, true);
   IncomingWave wave;
@@ -97,12 +97,12 @@ BaseDrift shake_slope(const std::string& spring, double spacing, double duration
   return drift;
 }
 
-/// METHODS test 17: within 1e-3 of the greatest displacement, on ground that yields.
+/// The base stays within 1e-3 of the greatest displacement of the input, on ground that yields.
 void check_long_record(double spacing)
 {
   const std::string text =
-      yielding(level_ground(spacing, 2, 4 * spacing, 8, 16, 9.81), "strength: {peak: 50 kPa}");
-  const Case case_file = scene_from(text);
+      with_strength(level_ground(spacing, 2, 4 * spacing, 8, 16, 9.81), "strength: {peak: 50 kPa}");
+  const Case case_file = case_from(text);
   Model model = make_model(case_file);
   settle_at_once(model, case_file);
   relax(model, case_file, 6, false);
@@ -117,12 +117,12 @@ void check_long_record(double spacing)
 }
 } // namespace
 
-TEST_CASE("after 300 s the base has moved by the integral of the input and by nothing else (17)", "[stages]")
+TEST_CASE("after 300 s the base has moved by the integral of the input and by nothing else", "[stages]")
 {
   check_long_record(4);
 }
 
-TEST_CASE("after 300 s the base has moved by the integral of the input, finer (17)", "[.fine]")
+TEST_CASE("after 300 s the base has moved by the integral of the input, finer", "[.fine]")
 {
   check_long_record(1);
 }
@@ -147,11 +147,11 @@ TEST_CASE("a record of 60 s on a slope that fails leaves the base where the inpu
   CHECK(off < 5e-3);
 }
 
-TEST_CASE("ground of different height at its sides stays still without input (34)", "[stages]")
+TEST_CASE("ground of different height at its sides stays still without input", "[stages]")
 {
-  // METHODS tests 16 and 34: displacement below 1e-4 h, and none to come in as much time again. What the
-  // static stage leaves unbalanced still creeps.
-  const Case case_file = scene_from(slope("strength: {peak: 1 MPa}", "auto", 2.5));
+  // Displacements below 1e-4 h, and none to come in as much time again. What the static stage leaves
+  // unbalanced still creeps.
+  const Case case_file = case_from(slope("strength: {peak: 1 MPa}", "auto", 2.5));
   Model model = make_model(case_file);
   relax(model, case_file, 30, true);
   const BaseDrift drift = shake(model, case_file, {}, 20).drift;

@@ -61,7 +61,7 @@ std::string said_of(const std::string& text)
 }
 } // namespace
 
-TEST_CASE("a layer without any particle is refused with its place", "[stages]")
+TEST_CASE("a layer without any particle is refused with its location", "[stages]")
 {
   CHECK_THAT(said_of(layered("{offset: rock, up: 0.24 m}")),
              Contains("refused: ") &&

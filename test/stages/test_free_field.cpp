@@ -5,10 +5,10 @@
 using namespace mpm;
 using namespace mpm::test;
 
-TEST_CASE("level ground under gravity stays still without input (16, shortened)", "[stages]")
+TEST_CASE("level ground under gravity stays still without input", "[stages]")
 {
-  // METHODS test 16: displacement below 1e-4 h and speed below 1e-6 m/s; 5 s instead of 100.
-  const Case case_file = scene_from(level_ground(1, 2, 20, 10, 20, 9.81));
+  // What rounding leaves: displacements below 1e-4 h and speeds below 1e-6 m/s over 5 s.
+  const Case case_file = case_from(level_ground(1, 2, 20, 10, 20, 9.81));
   Model model = make_model(case_file);
   settle_at_once(model, case_file);
   relax(model, case_file, 6, false);
@@ -29,13 +29,14 @@ TEST_CASE("level ground under gravity stays still without input (16, shortened)"
   CHECK(moved < 1e-4 * case_file.grid.spacing);
 }
 
-TEST_CASE("the switch leaves no acceleration behind in the boundary strip and corners (29)", "[stages]")
+TEST_CASE("the switch leaves no acceleration behind in the boundary strip and corners", "[stages]")
 {
-  // A slope with corners of different height, elastic. METHODS test 29: below 1e-4 g.
+  // An elastic slope with corners of different height: images and corners must hand over all that the walls
+  // bore.
   std::string text = level_ground(1, 2, 60, 10, 20, 9.81);
   text.replace(text.find("ground: {points: [[0 m, 20 m], [60 m, 20 m]]}"), 45,
                "ground: {points: [[0 m, 24 m], [20 m, 24 m], [40 m, 20 m], [60 m, 20 m]]}");
-  const Case case_file = scene_from(text);
+  const Case case_file = case_from(text);
   Model model = make_model(case_file);
   relax(model, case_file, 24, true);
   add_seismic_boundaries(model, case_file, std::make_shared<IncomingWave>(), false);
@@ -51,17 +52,18 @@ TEST_CASE("the switch leaves no acceleration behind in the boundary strip and co
   }
   INFO("boundary strip " << strip << " g, elsewhere " << inside << " g");
   CHECK(strip < 1e-4);
-  CHECK(inside < 1e-3); // nodes with little mass at the sloping surface, METHODS section 13
+  CHECK(inside <
+        1e-3); // nodes with little mass at the sloping surface, which answer to what the static stage left
 }
 
-TEST_CASE("gravity adds nothing to the motion of a base that moves over the grid (29)", "[stages]")
+TEST_CASE("gravity adds nothing to the motion of a base that moves over the grid", "[stages]")
 {
-  // A vertical pulse that lifts the base by several cells, with and without gravity; METHODS test 29: 1e-3 of
-  // PGV.
+  // A vertical pulse lifts the base by 3.2 cells, with and without gravity: the frozen images must go along.
+  // To 1e-3 of the peak velocity.
   const double length = 1.0, peak = 3.2 / (2 * length * 3.0 / 8.0); // integral of sin^4 is 3/8 of the length
   const auto motion = [&](double gravity)
   {
-    const Case case_file = scene_from(level_ground(1, 3, 12, 10, 10, gravity));
+    const Case case_file = case_from(level_ground(1, 3, 12, 10, 10, gravity));
     Model model = make_model(case_file);
     if (gravity > 0)
     {
@@ -77,8 +79,8 @@ TEST_CASE("gravity adds nothing to the motion of a base that moves over the grid
     {
       advance(model, k * dt, dt);
       if (k % 20 == 0)
-        for (const int place : model.main->particles.index_of)
-          velocity.push_back(model.main->particles.velocity_y[place]);
+        for (const int index : model.main->particles.index_of)
+          velocity.push_back(model.main->particles.velocity_y[index]);
     }
     return velocity;
   };
@@ -96,7 +98,7 @@ TEST_CASE("level ground stays still after the switch whatever its base and sides
   std::string text = level_ground(1, 2, 16, 5, 10, 9.81);
   text.replace(text.find("kind: compliant"), 15, "kind: " + base);
   text.replace(text.find("kind: free_field"), 16, "kind: " + sides);
-  const Case case_file = scene_from(text);
+  const Case case_file = case_from(text);
   Model model = make_model(case_file);
   settle_at_once(model, case_file);
   relax(model, case_file, 4, false);
@@ -109,5 +111,5 @@ TEST_CASE("level ground stays still after the switch whatever its base and sides
     speed = std::max(speed, greatest_speed(model.main->particles));
   }
   INFO(base << " base, " << sides << " sides: " << speed << " m/s");
-  CHECK(speed < 1e-6); // METHODS test 16
+  CHECK(speed < 1e-6);
 }

@@ -32,7 +32,7 @@ double soil(double above)
 TEST_CASE("Particles near a level interface have averaged compliances, the same in all columns", "[stages]")
 {
   const double rockhead = GENERATE(10.0, 10.15, 9.7); // on a grid line, and not
-  const Case case_file = scene_from(level_ground(1, 4, 12, rockhead, 20, 0));
+  const Case case_file = case_from(level_ground(1, 4, 12, rockhead, 20, 0));
   const Elastic &rock = case_file.materials[0].elastic(), &soft = case_file.materials[1].elastic();
   const Mixed ground = mixed(case_file);
   REQUIRE(ground.materials.size() > 2);
@@ -65,7 +65,7 @@ TEST_CASE("A law that does not admit the softer moduli keeps its own", "[stages]
                "model: von_mises, density: 2200 kg/m3, young_modulus: 250 MPa, poisson_ratio: 0.25, "
                "strength: {peak: 300 kPa, residual: 100 kPa}, softening: {strain: 0.0008}");
   text.replace(text.find("40 MPa"), 6, "2.5 MPa");
-  const Case case_file = scene_from(text);
+  const Case case_file = case_from(text);
   const Mixed ground = mixed(case_file);
   int kept = 0;
   for (const Material& material : ground.materials)
@@ -75,11 +75,11 @@ TEST_CASE("A law that does not admit the softer moduli keeps its own", "[stages]
 
 TEST_CASE("Level ground with averaged interfaces and consistent inertia moves as its columns", "[stages]")
 {
-  // METHODS test 33; bound of the ladder's level_site.
+  // The bound is that of cases/verification/level_site.
   std::string text = level_ground(1, 2, 20, 5, 10, 0);
   text.replace(text.find("per_cell: 2"), 11, "per_cell: 2, interfaces: averaged");
   text.replace(text.find("duration: 1 s"), 13, "duration: 1 s\n  inertia: consistent");
-  const Case case_file = scene_from(text);
+  const Case case_file = case_from(text);
   Model model = make_model(case_file);
   IncomingWave wave;
   wave.horizontal = pulse(0.1, 0.25, 1);

@@ -1,7 +1,7 @@
 // The table of io/results/checkpoint_layout.hpp against the states that the programs write.
 
-#include "io/common/files.hpp"
 #include "io/results/checkpoint_layout.hpp"
+#include "io/results/files.hpp"
 #include "test/stages/programs.hpp"
 
 #include <set>

@@ -31,7 +31,7 @@ Settled settled(const Case& case_file, bool scaled)
 
 TEST_CASE("scaled masses settle soil on rock to the same state in longer steps", "[stages]")
 {
-  const Case case_file = scene_from(level_ground(1, 2, 8, 4, 8, 9.81));
+  const Case case_file = case_from(level_ground(1, 2, 8, 4, 8, 9.81));
   const Settled plain = settled(case_file, false), scaled = settled(case_file, true);
   const Domain &a = *plain.model.main, &b = *scaled.model.main;
 
@@ -59,7 +59,7 @@ TEST_CASE("scaled masses settle soil on rock to the same state in longer steps",
 
 TEST_CASE("the weight of scaled masses stays what it was", "[stages]")
 {
-  const Case case_file = scene_from(level_ground(1, 2, 8, 4, 8, 9.81));
+  const Case case_file = case_from(level_ground(1, 2, 8, 4, 8, 9.81));
   Model model = make_model(case_file);
   scale_masses(model);
   Domain& main = *model.main;

@@ -87,7 +87,7 @@ TEST_CASE("a slide is told by area, centre of mass, toe and trigger", "[stages]"
   CHECK(slide_text(slide, 1) == "no slide: no ground has moved more than 1 m");
   slide["greatest_moved_area"] = {{"value", 47.64}, {"time", 0.7}};
   CHECK(slide_text(slide, 1) ==
-        "no slide: no ground is more than 1 m from its place (47.6 m2 were at t = 0.70 s, and came back)");
+        "no slide: no ground is more than 1 m from where it was (47.6 m2 were at t = 0.70 s, and came back)");
   slide.update({{"moved_area", 123.45},
                 {"centre_of_mass_displacement", {-3.0, -4.0}},
                 {"toe", 40.04},

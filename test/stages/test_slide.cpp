@@ -14,7 +14,7 @@ namespace
 /// in (4, 8).
 struct SlidingBlock
 {
-  Case case_file = scene_from(level_ground(1, 2, 20, 4, 6, 9.81));
+  Case case_file = case_from(level_ground(1, 2, 20, 4, 6, 9.81));
   Model model = make_model(case_file);
   Slide slide{model, case_file};
   History history;
@@ -32,19 +32,18 @@ struct SlidingBlock
   /// velocities.
   void move(double base, double ux, double uy, double base_speed, double vx, double vy)
   {
-    model.for_each_domain(
-        [&](Domain& domain, const std::string& column)
-        {
-          Particles& p = domain.particles;
-          for (int k = 0; k < p.size(); ++k)
-          {
-            const bool block = column.empty() && slides(p.reference_x[k], p.reference_y[k]);
-            p.x[k] = p.reference_x[k] + base + (block ? ux : 0);
-            p.y[k] = p.reference_y[k] + (block ? uy : 0);
-            p.velocity_x[k] = base_speed + (block ? vx : 0);
-            p.velocity_y[k] = block ? vy : 0;
-          }
-        });
+    for (const auto& [part, domain] : model.domains())
+    {
+      Particles& p = domain->particles;
+      for (int k = 0; k < p.size(); ++k)
+      {
+        const bool block = part == Part::ground && slides(p.reference_x[k], p.reference_y[k]);
+        p.x[k] = p.reference_x[k] + base + (block ? ux : 0);
+        p.y[k] = p.reference_y[k] + (block ? uy : 0);
+        p.velocity_x[k] = base_speed + (block ? vx : 0);
+        p.velocity_y[k] = block ? vy : 0;
+      }
+    }
   }
 
   void sample(double time)

@@ -28,12 +28,6 @@ std::shared_ptr<IncomingWave> wave_of(const Case& case_file)
   return wave;
 }
 
-double step_dividing(double every, const Case& case_file, const Domain& domain)
-{
-  const double most = case_file.courant_number * case_file.grid.spacing / greatest_wave_speed(domain);
-  return every / std::ceil(every / most);
-}
-
 Trace shake_column(const Case& case_file, std::shared_ptr<const IncomingWave> wave, double every)
 {
   Model model = make_model(case_file);
@@ -42,7 +36,7 @@ Trace shake_column(const Case& case_file, std::shared_ptr<const IncomingWave> wa
   column.domain->settings.flip_blend = case_file.seismic.flip_blend;
   // A gauge on the ground surface; the outermost particle sits half a particle distance below it.
   column.domain->gauges.push_back({0.5 * case_file.grid.spacing, case_file.ground_height(0), 0, 0, 0, 0});
-  const double dt = step_dividing(every, case_file, *column.domain);
+  const double dt = step_dividing(every, case_file.courant_number, *column.domain);
   const long stride = std::lround(every / dt), samples = std::lround(case_file.seismic.duration / every);
   Trace trace;
   trace.every = every;

@@ -1,7 +1,7 @@
 #pragma once
 // Free-field columns of a case, settled or shaken, for cases that one dimension answers.
 
-#include "solver/stages/model.hpp"
+#include "solver/stages/time_step.hpp"
 
 #include <complex>
 #include <filesystem>
@@ -13,9 +13,6 @@ Case case_at(const std::filesystem::path& folder, double spacing);
 
 /// The wave that the case's seismic.motion names, as the program would make it.
 std::shared_ptr<IncomingWave> wave_of(const Case& case_file);
-
-/// A step within the case's Courant number that divides `every` (s).
-double step_dividing(double every, const Case& case_file, const Domain& domain);
 
 /// Velocity of the ground surface; entry k is at (k + 1) every.
 struct Trace

@@ -77,7 +77,7 @@ Findings run_free_vibration(const std::filesystem::path& folder, double spacing)
   add_static_boundaries(model, case_file);
   Domain& column = *model.left->domain;
   start(column, H);
-  const double dt = case_file.courant_number * spacing / greatest_wave_speed(column);
+  const double dt = step_of(case_file.courant_number, column);
   std::vector<double> samples{amplitude(column, H)};
   Curve curve{"mode 1, last 4 periods", "time (s)", "surface velocity (m/s)", {}, {}, {}};
   for (int k = 0; k * dt < (periods + 0.3) * period; ++k)

@@ -27,9 +27,9 @@ std::map<std::string, History> shake_gauges(const Case& case_file, long samples)
     model.main->gauges.push_back(
         {gauge.x, std::min(gauge.y, case_file.ground_height(gauge.x)), gauge.x, gauge.y, 0, 0});
   add_seismic_boundaries(model, case_file, wave_of(case_file), false);
-  model.for_each_domain([&](Domain& domain, const std::string&)
-                        { domain.settings.flip_blend = case_file.seismic.flip_blend; });
-  const double dt = step_dividing(every, case_file, *model.main);
+  for (const auto& [part, domain] : model.domains())
+    domain->settings.flip_blend = case_file.seismic.flip_blend;
+  const double dt = step_dividing(every, case_file.courant_number, *model.main);
   const long stride = std::lround(every / dt);
   std::map<std::string, History> histories;
   for (long k = 0; k < samples * stride; ++k)

@@ -70,7 +70,7 @@ std::vector<History> load_surface(const Case& case_file, const std::vector<Gauge
     model.main->gauges.push_back({gauge.x, gauge.y, gauge.x, gauge.y, 0, 0});
   add_seismic_boundaries(model, case_file, std::make_shared<IncomingWave>(), false);
   model.main->boundaries.push_back(std::make_unique<SurfaceLoad>(case_file.ground_height(0)));
-  const double dt = step_dividing(every, case_file, *model.main);
+  const double dt = step_dividing(every, case_file.courant_number, *model.main);
   const long stride = std::lround(every / dt), samples = std::lround(case_file.seismic.duration / every);
   std::vector<History> histories(gauges.size());
   for (long k = 0; k < samples * stride; ++k)

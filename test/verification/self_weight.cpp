@@ -12,7 +12,7 @@ void settle(Model& model, const Case& case_file)
 {
   add_static_boundaries(model, case_file);
   Domain& column = *model.left->domain;
-  const double dt = case_file.courant_number * case_file.grid.spacing / greatest_wave_speed(column);
+  const double dt = step_of(case_file.courant_number, column);
   for (int k = 0; k * dt < case_file.static_stage.until.at_most; ++k)
   {
     const double s = std::min(1.0, k * dt / case_file.static_stage.ramp);

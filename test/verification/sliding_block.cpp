@@ -47,7 +47,7 @@ Findings run_sliding_block(const std::filesystem::path& folder, double spacing)
   add_static_boundaries(model, case_file);
   FreeFieldColumn& column = *model.left;
   Domain& domain = *column.domain;
-  const double dt = step_dividing(every, case_file, domain);
+  const double dt = step_dividing(every, case_file.courant_number, domain);
   const long stride = std::lround(every / dt);
   const double gravity = case_file.static_stage.gravity;
   // The slope at rest: stress along it from its weight, and no stress across, which the clay's strength does

@@ -1,7 +1,7 @@
 #include "test/verification/strength_reduction.hpp"
 
 #include "solver/mpm/step.hpp"
-#include "solver/stages/model.hpp"
+#include "solver/stages/time_step.hpp"
 
 #include <cmath>
 
@@ -35,7 +35,7 @@ Settled settle(const Case& case_file)
   Settled ground{make_model(case_file), {}, case_file.static_stage.gravity, 0};
   add_static_boundaries(ground.model, case_file);
   Domain& domain = *ground.model.main;
-  ground.dt = case_file.courant_number * case_file.grid.spacing / greatest_wave_speed(domain);
+  ground.dt = step_of(case_file.courant_number, domain);
   domain.settings.plastic = false;
   run(domain, ground.gravity, 0.5 * elastic_time, elastic_time, ground.dt);
   domain.settings.plastic = true;

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+namespace mpm
+{
+/// Number of the step and time of a stage: t = t_0 + (k - k_0) dt with k_0 the step at which dt was chosen,
+/// so that no rounding piles up over 1e5 steps and a resumed run has the same times to the last bit.
+struct Clock
+{
+  double dt = 0;               ///< s
+  std::int64_t step = 0;       ///< k
+  double start_time = 0;       ///< t_0, s
+  std::int64_t start_step = 0; ///< k_0
+
+  double time() const { return start_time + static_cast<double>(step - start_step) * dt; } ///< s
+
+  /// Goes on in steps of another length (s) from the present time.
+  void change_step(double new_dt)
+  {
+    start_time = time();
+    start_step = step;
+    dt = new_dt;
+  }
+
+  /// Whether a multiple of `every` (s) was reached in the last step.
+  bool passed(double every) const
+  {
+    constexpr double rounding = 1e-6; // of an interval: t = k dt may fall short of a multiple by a bit
+    const auto multiples = [every](double t) { return std::floor(t / every + rounding); };
+    return multiples(time()) > multiples(time() - dt);
+  }
+};
+} // namespace mpm
