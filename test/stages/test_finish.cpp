@@ -267,19 +267,6 @@ TEST_CASE("a run takes no state of another run, of another stage or that is not 
   CHECK_THAT(ending.said, Contains("is not the last state"));
 }
 
-TEST_CASE("a static state that had not settled is no static state", "[stages]")
-{
-  const Bench bench;
-  const Arguments slowly{"--set", "static.courant_number=0.1"};
-  terminate(bench, "mpm-static", bench.static_arguments("static", slowly), bench / "static");
-  const Ending ending =
-      bench.run("mpm-seismic", {bench.path("case.yaml"), "--from", checkpoints(bench / "static").back(),
-                                "--out", bench.path("a")});
-  CHECK(ending.code == 65);
-  CHECK_THAT(ending.said, Contains("had not settled"));
-  CHECK_FALSE(fs::exists(bench / "a"));
-}
-
 TEST_CASE("states that are well-formed and yet no run's are passed over for the older one, and told",
           "[stages]")
 {

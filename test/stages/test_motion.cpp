@@ -1,9 +1,7 @@
 // The motion that a run applies is the one that it reports.
 
-#include "test/stages/programs.hpp"
+#include "test/stages/block.hpp"
 #include "test/stages/results.hpp"
-
-#include <nlohmann/json.hpp>
 
 #include <sstream>
 
@@ -13,85 +11,12 @@ using Catch::Matchers::Contains;
 
 namespace
 {
-/// A block of rock without gravity, shaken by shake.txt: 1.2 s in steps of 10 ms, peak 12 m/s2.
-const std::string block = R"(schema: seismpm-case/1
-name: block
-grid: {spacing: 2 m, particles_per_cell: 2}
-domain: {x: [0 m, 8 m], bottom: 0 m}
-surfaces:
-  ground: {points: [[0 m, 6 m]]}
-regions:
-  - {material: rock, below: ground}
-materials:
-  rock: {model: elastic, density: 2000 kg/m3, young_modulus: 200 MPa, poisson_ratio: 0.25}
-static: {gravity: 0 m/s2}
-seismic:
-  duration: 0.6 s
-  motion:
-    recorded_as: outcrop
-    horizontal: {file: shake.txt, format: column, dt: 0.01 s, unit: m/s2}
-    baseline: none
-output:
-  frames: {every: 0.25 s}
-  gauges: {points: {top: [4 m, 6 m]}}
-)";
-
-class Block
-{
-public:
-  Block()
-  {
-    put(bench_ / "case.yaml", block);
-    put(bench_ / "shake.txt", sine(12, 2));
-  }
-  fs::path operator/(const std::string& name) const { return bench_ / name; }
-  Ending run(const std::string& out, const Arguments& more = {}) const
-  {
-    Arguments all{bench_.path("case.yaml"), "--out", bench_.path(out), "--threads", "1"};
-    all.insert(all.end(), more.begin(), more.end());
-    return bench_.run("mpm-seismic", all);
-  }
-  Ending program(const std::string& name, const Arguments& arguments) const
-  {
-    return bench_.run(name, arguments);
-  }
-  nlohmann::json summary(const std::string& out) const
-  {
-    return nlohmann::json::parse(contents(bench_ / out / "summary.json"));
-  }
-  /// Motion `name` in another unit and step.
-  Arguments record(const std::string& name, const std::string& unit = "m/s2",
-                   const std::string& dt = "0.01") const
-  {
-    return {"--motion", bench_.path(name), "--record-dt", dt, "--record-unit", unit};
-  }
-
-private:
-  Bench bench_;
-};
-
 std::vector<double> values_of(const std::string& text)
 {
   std::istringstream lines(text);
   std::vector<double> values;
   for (double value = 0; lines >> value;) values.push_back(value);
   return values;
-}
-
-/// The horizontal part of a series of /motion.
-std::vector<double> horizontal(const fs::path& history, const std::string& name)
-{
-  std::vector<double> part;
-  const std::vector<double> both = open_complete(history).read_doubles("motion/" + name);
-  for (std::size_t i = 0; i < both.size(); i += 2) part.push_back(both[i]);
-  return part;
-}
-
-double greatest(const std::vector<double>& values, std::size_t count)
-{
-  double most = 0;
-  for (std::size_t i = 0; i < std::min(count, values.size()); ++i) most = std::max(most, std::abs(values[i]));
-  return most;
 }
 } // namespace
 
@@ -242,108 +167,4 @@ TEST_CASE("a motion that is ended is reported as it fades", "[stages]")
   for (std::size_t i = 56; i < a.size(); ++i) REQUIRE(a[i] == Approx(0).margin(1e-12));
   const Ending late = b.run("late", {"--set", "seismic.motion.end=0.7 s"});
   CHECK_THAT(late.said, Contains("seismic.motion.end: 0.7 s is after the end of the run at 0.6 s"));
-}
-
-TEST_CASE("a fixed base applies no motion, reports none, and says so if one is given", "[stages]")
-{
-  const Block b;
-  const std::string fixed = "seismic.base.kind=fixed";
-  const Ending given = b.run("given", {"--set", fixed});
-  REQUIRE(given.code == 0);
-  CHECK_THAT(given.said, Contains("fixed base takes no motion") && !Contains("PGA"));
-  CHECK(greatest(horizontal(b / "given/history.h5", "upgoing_velocity"), 1000) == 0);
-  CHECK(b.summary("given")["motion"].empty());
-  std::string without = block;
-  without.erase(without.find("  motion:"), without.find("output:") - without.find("  motion:"));
-  put(b / "case.yaml", without);
-  const Ending none = b.run("none", {"--set", fixed});
-  REQUIRE(none.code == 0);
-  CHECK_THAT(none.said, !Contains("fixed base takes no motion"));
-  const Ending relative = b.run("x", {"--set", fixed, "--set", "seismic.duration=record + 10 s"});
-  CHECK(relative.code == 65);
-  CHECK_THAT(relative.said, Contains("a fixed base takes none") && Contains("'24 s'"));
-}
-
-TEST_CASE("what of a motion cannot be is refused, and nothing is ever not a number", "[stages]")
-{
-  const Block b;
-  const Ending scaled = b.run("x", {"--scale", "1e300"});
-  CHECK(scaled.code == 65);
-  CHECK_THAT(scaled.said, Contains("scale of 1e+300") && !Contains("nan") && !Contains("inf "));
-  const Ending slow = b.run("x", b.record("shake.txt", "m/s2", "1e300"));
-  CHECK(slow.code == 65);
-  CHECK_THAT(slow.said, Contains("time step of 1e+300 s") && !Contains("nan"));
-  const Ending endless = b.run("x", {"--check", "--set", "seismic.motion.horizontal.dt=1e100 s", "--set",
-                                     "seismic.duration=record + 10 s"});
-  CHECK(endless.code == 65);
-  CHECK_THAT(endless.said, Contains("seismic.duration") && Contains("mend the time step"));
-  const Ending fine = b.run("x", {"--check", "--set", "seismic.motion.horizontal.dt=1e-12 s"});
-  CHECK(fine.code == 65);
-  CHECK_THAT(fine.said, Contains("resample"));
-  const Ending nil = b.run("nil", {"--scale", "0"});
-  CHECK(nil.code == 0);
-  CHECK_THAT(nil.said, Contains("the scale is 0") && !Contains("nan"));
-  CHECK_THAT(contents(b / "nil/summary.json"), Contains("the scale is 0"));
-  const Ending alone = b.run("x", {"--record-unit", "gal"});
-  CHECK(alone.code == 64);
-  CHECK_THAT(alone.said, Contains("--motion"));
-}
-
-TEST_CASE("waves that lie beyond the end of the run are not looked for in its grid", "[stages]")
-{
-  const Block b;
-  std::string calm_then_quick = sine(3, 2);
-  calm_then_quick += sine(12, 40);
-  put(b / "shake.txt", calm_then_quick);
-  const auto share_above = [&](const std::string& out, const std::string& duration)
-  {
-    REQUIRE(b.run(out, {"--set", "seismic.duration=" + duration}).code == 0);
-    const auto waves = b.summary(out)["resolution"]["materials"]["rock"]["S"];
-    CHECK(waves["carried_to"].get<double>() < 20);
-    return waves["arias_share_above"].get<double>();
-  };
-  CHECK(share_above("calm", "1.2 s") < 0.2);   // a burst of 2 Hz
-  CHECK(share_above("whole", "record") > 0.8); // 16 times its intensity at 40 Hz
-}
-
-TEST_CASE("the slope that is shipped applies its whole motion, in its quick profile too", "[stages]")
-{
-  const Block b;
-  for (const Arguments& profile : {Arguments{}, Arguments{"--profile", "quick"}})
-  {
-    Arguments arguments{SOURCE_DIR "/cases/slope/case.yaml", "--check", "--set", "grid.spacing=2 m"};
-    arguments.insert(arguments.end(), profile.begin(), profile.end());
-    const Ending ending = b.program("mpm-seismic", arguments);
-    CHECK(ending.code == 0);
-    CHECK_THAT(ending.said,
-               Contains("PGA 0.250 g at 8.68 s") && Contains("for 49.99 s") && !Contains("beyond the end"));
-  }
-}
-
-TEST_CASE("a static stage does not need the record that the length of the shaking comes from", "[stages]")
-{
-  const Bench bench;
-  const Ending ending =
-      bench.run("mpm-static", {bench.path("case.yaml"), "--check", "--set", "seismic.duration=record + 10 s",
-                               "--set", "seismic.motion.horizontal.file=nowhere.txt"});
-  INFO(ending.said);
-  CHECK(ending.code == 0);
-}
-
-TEST_CASE("rows of values are read where the command line names their format", "[stages]")
-{
-  const Block b;
-  std::string rows = "MADE FOR A TEST\n";
-  for (int k = 0; k < 120; ++k)
-    rows += (k % 8 ? " " : k ? "\n" : "") + std::to_string(0.1 * std::sin(0.2 * k)) + (k == 119 ? "\n" : "");
-  put(b / "rows.acc", rows);
-  const Arguments record{"--motion", b / "rows.acc", "--record-dt", "0.01", "--record-unit", "g"};
-  Arguments named = record;
-  named.insert(named.end(), {"--record-format", "shake"});
-  const Ending unnamed = b.run("unnamed", record);
-  CHECK(unnamed.code == 65);
-  CHECK_THAT(unnamed.said, Contains("rows.acc:1"));
-  CHECK(b.run("named", named).code == 0);
-  CHECK(b.summary("named")["motion"]["horizontal"]["recorded"]["pga"].get<double>() ==
-        Approx(0.1 * 9.80665).epsilon(0.01)); // the sine's samples miss its peak by cos(0.1) at most, 0.5 %
 }

@@ -231,6 +231,19 @@ TEST_CASE("a static state that is incomplete, damaged or none is refused with 65
   CHECK(refused());
 }
 
+TEST_CASE("a static state that had not settled is no static state", "[stages]")
+{
+  const Bench bench;
+  const Arguments slowly{"--set", "static.courant_number=0.1"};
+  terminate(bench, "mpm-static", bench.static_arguments("static", slowly), bench / "static");
+  const Ending ending =
+      bench.run("mpm-seismic", {bench.path("case.yaml"), "--from", checkpoints(bench / "static").back(),
+                                "--out", bench.path("a")});
+  CHECK(ending.code == 65);
+  CHECK_THAT(ending.said, Contains("had not settled"));
+  CHECK_FALSE(fs::exists(bench / "a"));
+}
+
 TEST_CASE("a refused static state leaves the output folder free for the right one", "[stages]")
 {
   const Bench bench;
