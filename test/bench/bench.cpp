@@ -138,7 +138,7 @@ Run measure(int particles, int threads)
 {
   parallel::use_threads(threads);
   malloc_trim(0);
-  const double before_scene = resident();
+  const double before_model = resident();
   Case case_file;
   Model model = shaken_slope(particles, case_file);
   const double dt = step_of(case_file.courant_number, *model.main);
@@ -151,7 +151,7 @@ Run measure(int particles, int threads)
   };
   go(batch);
   malloc_trim(0);
-  const double bytes = (resident() - before_scene) / count;
+  const double bytes = (resident() - before_model) / count;
   const double unit = 1e9 * threads / (static_cast<double>(count) * batch);
   const auto before = model.main->measures.times.seconds();
   std::vector<double> batches, floors;
