@@ -56,6 +56,7 @@ Relaxation::Relaxation(Session& session, Model& model)
   set_phase(Phase::elastic);
 }
 
+/// Begins a phase in the ground and in the columns; the criteria have to hold anew.
 void Relaxation::set_phase(Phase phase)
 {
   phase_ = phase;
@@ -190,6 +191,7 @@ int Relaxation::run(Clock& clock, Start start)
   return exit_code::done;
 }
 
+/// Steps; forces are summed up for the criteria only in the steps that are looked at.
 Relaxation::Ended Relaxation::loop(Clock& clock, Progress& progress)
 {
   const StaticSettings& settings = session_.case_file.static_stage;

@@ -47,6 +47,7 @@ void Shaking::load(const h5::File& state, Clock& clock)
   fade_when_self_driven();
 }
 
+/// A run that is loaded at its end steps no more: it writes what may be missing and ends as it did.
 int Shaking::run(Clock& clock, Start start)
 {
   Progress progress(session_.log,
@@ -180,11 +181,13 @@ void Shaking::end_motion()
       moved.advance(), motion_.wave->fade.end());
 }
 
+/// After a restart too: the wave itself does not know that it was ended.
 void Shaking::fade_when_self_driven()
 {
   if (!std::isnan(self_driven_.decided())) motion_.wave->fade.start = self_driven_.decided();
 }
 
+/// The state, and with it history.h5, so that a run that is killed has its results until then.
 void Shaking::save(const std::string& name, const Clock& clock)
 {
   energy_.check(clock.time()); // throws Diverged: the last checkpoint must be a good one

@@ -8,6 +8,7 @@
 
 namespace mpm
 {
+// Phases are timed since the program began: what went before the loop is taken off.
 Summary::Summary(Session& session, const Model& model, const Clock& clock)
     : session_(session), model_(model), clock_(clock), first_step_(clock.step),
       earlier_(model.main->measures.times.seconds())
