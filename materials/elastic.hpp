@@ -12,6 +12,9 @@
 
 namespace mpm
 {
+/// Gravity where a case does not say otherwise, m/s2.
+inline constexpr double usual_gravity = 9.81;
+
 /// Isotropic linear elasticity in plane strain: density in kg/m3, Young's modulus in Pa.
 struct Elastic
 {

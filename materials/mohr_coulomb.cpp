@@ -26,7 +26,7 @@ std::string MohrCoulomb::resolve(double spacing)
     return {};
   }
   // What snaps back under the weight of a single cell does so everywhere.
-  const double weight = density * 9.81 * spacing;
+  const double weight = density * usual_gravity * spacing;
   const double lost = std::max(cohesion_peak - cohesion_residual, fall().at(weight));
   return resolve_softening(spacing, lost / (std::sqrt(3.0) * shear_modulus()));
 }

@@ -75,7 +75,7 @@ struct Convergence
 /// `static`: gravity grows over `ramp` and the ground settles under local damping.
 struct StaticSettings
 {
-  double gravity = 9.81;                       ///< m/s2, downwards; 0: no gravity and nothing to settle
+  double gravity = usual_gravity;              ///< m/s2, downwards; 0: no gravity and nothing to settle
   double ramp = 10;                            ///< s
   double damping = 0.75;                       ///< fraction of the unbalanced force, in [0, 1)
   double courant_number = fast_courant_number; ///< no wave has to be carried, only stability counts
@@ -204,6 +204,8 @@ struct SlideSettings
   /// Distance beyond which ground is out of place, m: the first tenth of the way to a slide.
   double out_of_place() const { return 0.1 * moved; }
 };
+
+inline constexpr double slide_every = 0.1; ///< s between samples of the slide's measures and of the energy
 
 /// `output`.
 struct OutputSettings

@@ -114,7 +114,7 @@ CaseSize expected_size(const Case& case_file)
   if (case_file.seismic.duration > 0)
     size.samples =
         case_file.seismic.duration / output.gauges.every * (10 + 6.0 * output.gauges.points.size()) +
-        case_file.seismic.duration / 0.1 * 60;
+        case_file.seismic.duration / slide_every * 60;
   return size;
 }
 

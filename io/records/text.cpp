@@ -206,7 +206,7 @@ std::vector<double> numbers_at(const RecordSource& source, const Line& line)
   refuse(source, line, "expected numbers and found " + shown(line.text) + "; mend or remove the line");
 }
 
-// It is no line of numbers as it stands, and is one with points in the place of its commas.
+// It is no line of numbers as it stands, and is one with points in place of its commas.
 bool has_decimal_commas(std::string_view text)
 {
   if (text.find(',') == std::string_view::npos || numbers_in(text)) return false;

@@ -7,8 +7,6 @@
 
 namespace mpm
 {
-inline constexpr double slide_every = 0.1; ///< s between samples of the slide's measures and of the energy
-
 /// What a seismic run writes down while it goes: gauges, free field, slide, energy, frames.
 class Observer
 {
