@@ -125,7 +125,7 @@ output:
   CHECK_THAT(case_file.warnings[0], Contains("poisson_ratio: 0.495 is above 0.49"));
 }
 
-TEST_CASE("The README's example is understood, but for the models that do not exist", "[io]")
+TEST_CASE("A case of many sections is understood, and models that do not exist are refused in it", "[io]")
 {
   const std::string text = R"(schema: seismpm-case/1
 name: gaussian-slope

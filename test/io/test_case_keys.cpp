@@ -5,7 +5,7 @@
 using namespace mpm;
 using namespace mpm::test;
 
-TEST_CASE("An unknown key is refused with its place, the allowed keys and the nearest one", "[io]")
+TEST_CASE("An unknown key is refused with its location, the allowed keys and the nearest one", "[io]")
 {
   CHECK(refusal(replaced(small, "poisson_ratio", "poison_ratio")) ==
         "65\n"

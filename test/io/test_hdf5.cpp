@@ -114,9 +114,9 @@ TEST_CASE("a flipped byte in a dataset is reported, not read", "[io]")
 
   std::string bytes = contents(folder / "a.h5");
   const std::string needle(reinterpret_cast<const char*>(&mass[500]), sizeof(double));
-  const std::size_t place = bytes.find(needle);
-  REQUIRE(place != std::string::npos);
-  bytes[place + 3] ^= 1;
+  const std::size_t offset = bytes.find(needle);
+  REQUIRE(offset != std::string::npos);
+  bytes[offset + 3] ^= 1;
   put(folder / "b.h5", bytes);
 
   const auto read = [&] { open_complete(folder / "b.h5").read_doubles("particles/mass"); };

@@ -154,7 +154,7 @@ TEST_CASE("Particles that have left their cells since the sort read what the def
 
   // Sums of 16 products of splines, with moments of at most 2 h: some 20 roundings of numbers up to 1.
   const double rounding = 20 * std::numeric_limits<double>::epsilon();
-  double velocity = 0, place = 0, affine = 0;
+  double velocity = 0, position = 0, affine = 0;
   for (int k = 0; k < p.size(); ++k)
   {
     const Stencil x = cubic_stencil(before.x[k], h), y = cubic_stencil(before.y[k], h);
@@ -177,12 +177,12 @@ TEST_CASE("Particles that have left their cells since the sort read what the def
     const double vx = v[0] + blend * (before.velocity_x[k] + change[0] - v[0]);
     const double vy = v[1] + blend * (before.velocity_y[k] + change[1] - v[1]);
     velocity = std::max({velocity, std::fabs(p.velocity_x[k] - vx), std::fabs(p.velocity_y[k] - vy)});
-    place = std::max(
-        {place, std::fabs(p.x[k] - before.x[k] - dt * v[0]), std::fabs(p.y[k] - before.y[k] - dt * v[1])});
+    position = std::max(
+        {position, std::fabs(p.x[k] - before.x[k] - dt * v[0]), std::fabs(p.y[k] - before.y[k] - dt * v[1])});
     affine = std::max({affine, std::fabs(p.affine_xx[k] - C[0][0]), std::fabs(p.affine_xy[k] - C[0][1]),
                        std::fabs(p.affine_yx[k] - C[1][0]), std::fabs(p.affine_yy[k] - C[1][1])});
   }
   CHECK(velocity < 3 * rounding); // two sums and the particle's own velocity
-  CHECK(place < 6 * rounding);    // at up to 6 m
+  CHECK(position < 6 * rounding); // at up to 6 m
   CHECK(affine < 6 / h * rounding);
 }

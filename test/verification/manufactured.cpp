@@ -55,14 +55,16 @@ struct Solution
   /// rho_0 b_x = rho_0 a_x - d(F_yy sigma_xx) / dX
   std::array<double, 2> body_acceleration(double X, double Y, double t) const
   {
-    const double place[] = {X, Y};
+    const double position[] = {X, Y};
     std::array<double, 2> b;
     for (int axis = 0; axis < 2; ++axis)
     {
-      const double across = stretch(1 - axis, place[1 - axis], t);
-      const double curvature = -pi * pi * displacement(axis, place[axis], t);
-      const double divergence = across * material().p_modulus() * curvature / stretch(axis, place[axis], t);
-      b[axis] = -frequency * frequency * displacement(axis, place[axis], t) - divergence / material().density;
+      const double across = stretch(1 - axis, position[1 - axis], t);
+      const double curvature = -pi * pi * displacement(axis, position[axis], t);
+      const double divergence =
+          across * material().p_modulus() * curvature / stretch(axis, position[axis], t);
+      b[axis] =
+          -frequency * frequency * displacement(axis, position[axis], t) - divergence / material().density;
     }
     return b;
   }

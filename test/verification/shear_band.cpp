@@ -52,14 +52,14 @@ private:
   double cosine_, sine_, width_, speed_;
 };
 /// Part of the slip that becomes shear strain at the distance y (cells) from a band, times the cell.
-double band_shape(BandPlace place, double y)
+double band_shape(BandPosition position, double y)
 {
   const auto spline = [](double z)
   {
     const double a = std::fabs(z);
     return a < 0.5 ? 0.75 - a * a : a < 1.5 ? 0.5 * (1.5 - a) * (1.5 - a) : 0;
   };
-  return place == BandPlace::within_cells ? spline(y) : 0.5 * (spline(y - 0.5) + spline(y + 0.5));
+  return position == BandPosition::within_cells ? spline(y) : 0.5 * (spline(y - 0.5) + spline(y + 0.5));
 }
 
 void check(VonMises& law, double spacing)
@@ -76,13 +76,13 @@ VonMises soil()
 }
 } // namespace
 
-BandEnergy shear_band(VonMises law, double degrees, BandPlace place, double spacing, double slip,
+BandEnergy shear_band(VonMises law, double degrees, BandPosition position, double spacing, double slip,
                       bool average_volume)
 {
   check(law, spacing);
   const double angle = degrees * std::numbers::pi / 180, cosine = std::cos(angle), sine = std::sin(angle);
   const int cells = cells_across(spacing);
-  const double width = spacing * (cells + (place == BandPlace::within_cells ? 1 : 0));
+  const double width = spacing * (cells + (position == BandPosition::within_cells ? 1 : 0));
   Domain domain = domains::make_domain({{law, {0, 0, width, width}, spacing / 2}}, spacing);
   domain.settings.average_volume = average_volume;
   domain.boundaries.push_back(std::make_unique<Grip>(cosine, sine, width, speed * spacing));
@@ -109,13 +109,13 @@ double softening_energy(const VonMises& law)
   return 0.5 * (law.peak - law.residual) / std::sqrt(3.0) * law.softening_displacement;
 }
 
-double spline_band_energy(VonMises law, BandPlace place, double spacing, double slip)
+double spline_band_energy(VonMises law, BandPosition position, double spacing, double slip)
 {
   check(law, spacing);
   double sum = 0;
   for (double y = -1.75; y < 2; y += 0.5)
   {
-    const double strain = slip / (std::sqrt(3.0) * spacing) * band_shape(place, y);
+    const double strain = slip / (std::sqrt(3.0) * spacing) * band_shape(position, y);
     const double left = 1 - std::min(1.0, strain / law.softening_strain); // of the softening
     sum += 0.5 * spacing * 0.5 * (law.peak - law.residual) * law.softening_strain * (1 - left * left);
   }
@@ -124,10 +124,10 @@ double spline_band_energy(VonMises law, BandPlace place, double spacing, double 
 
 Findings run_shear_band(const std::filesystem::path&, double h)
 {
-  constexpr auto within = BandPlace::within_cells, on = BandPlace::on_nodes;
+  constexpr auto within = BandPosition::within_cells, on = BandPosition::on_nodes;
   const VonMises law = soil();
-  const auto band = [&](double degrees, BandPlace place, bool average_volume)
-  { return shear_band(law, degrees, place, h, slip, average_volume); };
+  const auto band = [&](double degrees, BandPosition position, bool average_volume)
+  { return shear_band(law, degrees, position, h, slip, average_volume); };
   const auto error = [&](const BandEnergy& found)
   { return std::fabs(found.softening / softening_energy(law) - 1); };
   Findings found;

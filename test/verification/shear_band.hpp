@@ -5,7 +5,7 @@
 namespace mpm::verification
 {
 /// Where a shear band runs.
-enum class BandPlace
+enum class BandPosition
 {
   within_cells, ///< along the middle of a row of cells
   on_nodes,     ///< along a row of nodes
@@ -21,7 +21,7 @@ struct BandEnergy
 /// A square box of the law, 24 cells or more wide, whose rim moves as two rigid halves that slide past each
 /// other by `slip` (m) along a line through the middle, inclined to the grid by `degrees`. The law's
 /// softening is by displacement. `average_volume`: with volume changes averaged over the cells.
-BandEnergy shear_band(VonMises law, double degrees, BandPlace place, double spacing, double slip,
+BandEnergy shear_band(VonMises law, double degrees, BandPosition position, double spacing, double slip,
                       bool average_volume);
 
 /// (tau_p - tau_r) delta_r / 2 in J/m2, tau = q / sqrt(3) in plane strain: what the softening displacement
@@ -31,5 +31,5 @@ double softening_energy(const VonMises& law);
 /// The same band in closed form, in J/m2: velocity jumps from one row of nodes to the next (within cells) or
 /// in equal parts over two (on nodes), so that the shear strain follows the cubic spline's derivative, a
 /// quadratic spline, or the mean of two of them, and every row of particles, two a cell, softens by its own.
-double spline_band_energy(VonMises law, BandPlace place, double spacing, double slip);
+double spline_band_energy(VonMises law, BandPosition position, double spacing, double slip);
 } // namespace mpm::verification

@@ -53,13 +53,14 @@ TEST_CASE("On a zone of three cells a share of FLIP gives the slide back", "[ver
   CHECK(all.slip == Approx(1).epsilon(0.1));        // 1.010
 }
 
-TEST_CASE("A zone of two cells is locked at any share of FLIP", "[verification]")
+TEST_CASE("Known weakness: a zone of two cells is locked at any share of FLIP", "[verification]")
 {
   // 0.0013 in all three: the particles of the elastic sides reach across every node of the zone.
   for (const double share : {0.0, 0.99, 0.999}) CHECK(over_rigid_block(2, share).slip < 0.01);
 }
 
-TEST_CASE("A zone of three cells is held where its sides share a node, one of four nowhere", "[verification]")
+TEST_CASE("Known weakness: a zone of three cells is held where its sides share a node, one of four nowhere",
+          "[verification]")
 {
   // On an inclined zone every offset from the nodes occurs somewhere, and the stiffest hold the others.
   double least_of_three = 1;

@@ -91,8 +91,8 @@ std::array<double, 3> cartesian(const Vortex::Stress& s, double angle)
 /// turn as a whole by what the particles' sum of the body force's moment errs.
 Domain start(double h, double dt)
 {
-  const domains::Rectangle place{-half_width, -half_width, 2 * half_width, 2 * half_width};
-  Domain domain = domains::make_domain({{material(), place, h / 3}}, h);
+  const domains::Rectangle body{-half_width, -half_width, 2 * half_width, 2 * half_width};
+  Domain domain = domains::make_domain({{material(), body, h / 3}}, h);
   Particles& p = domain.particles;
   for (int k = 0; k < p.size(); ++k)
   {
