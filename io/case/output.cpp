@@ -55,8 +55,9 @@ GaugeSettings read_gauges(Section section, Problems& problems)
   gauges.every = section.number_or(
       gauges.every, {"every", "sampling of gauges and free field, which the time step divides"},
       Dimension::time, Interval::positive());
-  const YamlNode* points = section.find(
-      {"points", "gauges by name, as in the undeformed ground; each follows its material", "map of names to [x, y], lengths", "none"});
+  const YamlNode* points =
+      section.find({"points", "gauges by name, as in the undeformed ground; each follows its material",
+                    "map of names to [x, y], lengths", "none"});
   if (!points) return gauges;
   if (points->kind != YamlNode::Kind::map)
     problems.add(points->location, points->path, "must be a map of names, as {crest: [50 m, 35 m]}");
