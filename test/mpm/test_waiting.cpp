@@ -5,8 +5,6 @@
 #include <cstdio>
 #include <string>
 
-using Catch::Matchers::Contains;
-
 namespace
 {
 /// What the runtime says of its settings when mpm-static starts, environment given.
@@ -24,15 +22,21 @@ std::string runtime_settings(const std::string& environment)
   REQUIRE(pclose(pipe) == 0);
   return said;
 }
+
+/// Whether threads spin as briefly as the programs ask for: libgomp, libomp, libomp since 19.
+bool spins_briefly(const std::string& settings)
+{
+  for (const char* brief : {"GOMP_SPINCOUNT = '1000'", "KMP_BLOCKTIME='0'", "KMP_BLOCKTIME='0ms'"})
+    if (settings.find(brief) != std::string::npos) return true;
+  return false;
+}
 } // namespace
 
 TEST_CASE("threads spin briefly where the user does not say how they wait", "[mpm]")
 {
   const std::string usual = runtime_settings("");
   INFO(usual);
-  CHECK((usual.find("GOMP_SPINCOUNT = '1000'") != std::string::npos ||
-         usual.find("KMP_BLOCKTIME='0'") != std::string::npos));
+  CHECK(spins_briefly(usual));
   for (const std::string wish : {"OMP_WAIT_POLICY=active", "GOMP_SPINCOUNT=77", "KMP_BLOCKTIME=5"})
-    CHECK_THAT(runtime_settings(wish),
-               !Contains("GOMP_SPINCOUNT = '1000'") && !Contains("KMP_BLOCKTIME='0'"));
+    CHECK(!spins_briefly(runtime_settings(wish)));
 }
