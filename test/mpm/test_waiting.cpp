@@ -23,10 +23,10 @@ std::string runtime_settings(const std::string& environment)
   return said;
 }
 
-/// Whether threads spin as briefly as the programs ask for: libgomp, libomp, libomp since 19.
+/// Whether threads spin as briefly as the programs ask for: libgomp, libomp, libomp 19, which leaves its quote open.
 bool spins_briefly(const std::string& settings)
 {
-  for (const char* brief : {"GOMP_SPINCOUNT = '1000'", "KMP_BLOCKTIME='0'", "KMP_BLOCKTIME='0ms'"})
+  for (const char* brief : {"GOMP_SPINCOUNT = '1000'", "KMP_BLOCKTIME='0'", "KMP_BLOCKTIME='0ms"})
     if (settings.find(brief) != std::string::npos) return true;
   return false;
 }
