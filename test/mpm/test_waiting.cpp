@@ -23,7 +23,8 @@ std::string runtime_settings(const std::string& environment)
   return said;
 }
 
-/// Whether threads spin as briefly as the programs ask for: libgomp, libomp, libomp 19, which leaves its quote open.
+/// Whether threads spin as briefly as the programs ask for: libgomp, libomp, libomp 19, which leaves its
+/// quote open.
 bool spins_briefly(const std::string& settings)
 {
   for (const char* brief : {"GOMP_SPINCOUNT = '1000'", "KMP_BLOCKTIME='0'", "KMP_BLOCKTIME='0ms"})
