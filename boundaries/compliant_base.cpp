@@ -31,9 +31,22 @@ void CompliantBase::add_forces(Domain& domain, double dt)
   input_[0][1] += 2 * vy * dt;
 }
 
+void CompliantBase::constrain(Grid& grid)
+{
+  if (!grid.face_dashpot_x.empty()) columns_.split(grid, nodes_);
+}
+
 void CompliantBase::apply_dashpots(Grid& grid, double dt)
 {
   columns_.apply(grid, nodes_, dt);
+}
+
+std::array<double, 2> CompliantBase::met_velocity(const Grid& grid, int row) const
+{
+  if (nodes_.size() == 0) return {};
+  for (std::size_t k = 0; k < nodes_.size(); ++k)
+    if (nodes_[k].row == row) return columns_.met_velocity(grid, nodes_, k);
+  return columns_.first_velocity();
 }
 
 std::vector<std::array<double, 2>> CompliantBase::stretch_spring(const Particles& particles, double dt)
@@ -98,17 +111,19 @@ std::string CompliantBase::state_problem(const Domain& domain) const
 }
 
 /// The traction c (2 v_up - u) does the work c v_up^2 - c (u - v_up)^2 on a face that moves with u: what
-/// comes up less what goes down. The nodes may move with another velocity v than the u that the dashpots met.
+/// comes up less what goes down. The nodes may move with another velocity v than the u that a dashpot met.
 /// The spring is the part of the static reaction that learns.
 void CompliantBase::measure_work(const Domain& domain, double dt, Energies& now) const
 {
   const Grid& g = domain.grid;
   const auto [upx, upy] = wave_->velocity(domain.time + 0.5 * dt);
   double incoming = 0, radiated = 0, spring = 0;
-  for (const FaceNode& at : nodes_)
+  for (std::size_t k = 0; k < nodes_.size(); ++k)
   {
+    const FaceNode& at = nodes_[k];
     const auto [vx, vy] = g.middle_velocity(at.node);
-    const auto [ux, uy] = domain.settings.consistent_inertia ? face_velocity(at.column) : std::array{vx, vy};
+    const auto [ux, uy] =
+        domain.settings.consistent_inertia ? columns_.met_velocity(g, nodes_, k) : std::array{vx, vy};
     spring += at.drive_x * vx + at.drive_y * vy;
     incoming += at.dashpot_x * upx * upx + at.dashpot_y * upy * upy;
     radiated +=

@@ -25,12 +25,15 @@ public:
   bool absorbs() const override { return true; }
   void release(const Particles& particles) override;
   void add_forces(Domain& domain, double dt) override;
+  /// Comes after walls have folded the nodes' masses and dashpots.
+  void constrain(Grid& grid) override;
   void apply_dashpots(Grid& grid, double dt) override;
   void measure_work(const Domain& domain, double dt, Energies& now) const override;
   void visit_state(StateVisitor& visitor) override;
   std::string state_problem(const Domain& domain) const override;
-  /// Velocity of the face at a column of nodes in the last step, m/s; with consistent inertia only.
-  const std::array<double, 2>& face_velocity(int column) const { return columns_.velocity(column); }
+  /// Velocity that the dashpots of a free-field column's base met at a row of nodes in the last step, m/s;
+  /// with consistent inertia only.
+  std::array<double, 2> met_velocity(const Grid& grid, int row) const;
   /// Where the free field's base stands at the start of the step to come; without columns the free field goes
   /// where the input takes it.
   void follow(std::vector<FreeFieldBase> free_field) { free_field_ = std::move(free_field); }

@@ -45,6 +45,8 @@ public:
   void spread(const Grid& grid, const Particles& particles, const std::vector<Face>& faces,
               std::span<const std::array<double, 2>> far_end = {});
 
+  const FaceNode& operator[](std::size_t k) const { return nodes_[k]; }
+  std::size_t size() const { return nodes_.size(); }
   auto begin() const { return nodes_.begin(); }
   auto end() const { return nodes_.end(); }
 

@@ -121,7 +121,8 @@ std::array<double, 2> FreeFieldSide::column_velocity(int row) const
 std::array<double, 2> FreeFieldSide::base_velocity(int row) const
 {
   if (!column_->domain->settings.consistent_inertia) return column_velocity(row);
-  return column_->compliant_base ? column_->compliant_base->face_velocity(0) : std::array<double, 2>{};
+  if (!column_->compliant_base) return {};
+  return column_->compliant_base->met_velocity(column_->domain->grid, row);
 }
 
 void FreeFieldSide::add_forces(Domain& domain, double dt)

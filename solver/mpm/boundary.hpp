@@ -36,7 +36,8 @@ struct Boundary
   /// Adds forces and dashpots to the grid, after the particles' own scatter. The step runs from domain.time
   /// to domain.time + dt.
   virtual void add_forces(Domain&, double /*dt*/) {}
-  /// The last change of mass, momentum and forces before the equation of motion: mirrors nodes at a wall.
+  /// The last change of mass, momentum, forces and dashpots before the equation of motion, in the order of
+  /// Domain::boundaries: mirrors nodes at a wall; shares out the base's dashpots, after the walls.
   virtual void constrain(Grid&) {}
   /// With consistent inertia, after the equation of motion node by node: forces that depend on several nodes'
   /// velocities.

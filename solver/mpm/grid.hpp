@@ -96,8 +96,8 @@ struct Grid
   /// Coefficients c of dashpots at the nodes, N s/m: their force is -c v; what their far ends add is in the
   /// forces. Empty without absorbing boundaries.
   NodeField dashpot_x, dashpot_y;
-  /// Of dashpots on the base's face, which act on the face's velocity (FaceColumns), N s/m. Empty without
-  /// them and with the lumped mass.
+  /// Of dashpots on the base's face, which act on the face's velocity but for a share that is in dashpot_x
+  /// and dashpot_y too (FaceColumns), N s/m. Empty without them and with the lumped mass.
   NodeField face_dashpot_x, face_dashpot_y;
   NodeField velocity_x, velocity_y; ///< v* at the end of the step, m/s
   NodeField change_x, change_y;     ///< v* - P/m of the lumped mass, m/s; empty but for correct_inertia
