@@ -151,6 +151,17 @@ void load_materials(const h5::Group& group, Domain& domain)
   domain.material_begin = std::move(begin);
 }
 
+struct KinkField
+{
+  std::string_view name, unit;
+  double Kink::*member;
+};
+constexpr std::array gauge_kink_fields{
+    KinkField{"kink_normal_x", "1", &Kink::normal_x}, KinkField{"kink_normal_y", "1", &Kink::normal_y},
+    KinkField{"kink_normal", "m", &Kink::normal},     KinkField{"kink_lateral", "m", &Kink::lateral},
+    KinkField{"kink_shear", "m", &Kink::shear},       KinkField{"kink_stretch", "1", &Kink::stretch},
+    KinkField{"kink_slip", "1", &Kink::slip}};
+
 void visit_gauges(StateVisitor& visitor, std::vector<Gauge>& gauges)
 {
   RecordVisitor<Gauge> list(visitor, "", gauges);
@@ -160,6 +171,8 @@ void visit_gauges(StateVisitor& visitor, std::vector<Gauge>& gauges)
   list.member("reference_y", "m", &Gauge::reference_y);
   list.member("velocity_x", "m/s", &Gauge::velocity_x);
   list.member("velocity_y", "m/s", &Gauge::velocity_y);
+  for (const auto& [name, unit, member] : gauge_kink_fields)
+    list.each(name, unit, [m = member](Gauge& gauge) -> double& { return gauge.kink.*m; });
 }
 } // namespace
 

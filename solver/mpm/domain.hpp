@@ -41,12 +41,24 @@ struct OccupiedBlock
   }
 };
 
+/// How a gauge's ground moves otherwise than the field in which averaged moduli smooth the kink at an
+/// interface (kink_at). With the normal n, the tangent t and the field's velocity v,
+///
+///   v_n - (normal dv_n/dn + lateral dv_t/dt),   v_t - shear (dv_t/dn + dv_n/dt).
+struct Kink
+{
+  double normal_x = 0, normal_y = 0;         ///< n, towards the softer side
+  double normal = 0, lateral = 0, shear = 0; ///< m; all zero: no interface within reach
+  double stretch = 0, slip = 0; ///< what dv_n/dn and dv_t/dn + dv_n/dt have come to since the start, 1
+};
+
 /// A massless point of the ground whose motion is recorded: it moves with the interpolated grid velocity.
 struct Gauge
 {
   double x, y;                     ///< position, m; not a number once its ground has left the domain
   double reference_x, reference_y; ///< where it began, m
   double velocity_x = 0, velocity_y = 0;
+  Kink kink = {};
 };
 
 /// What the stage asks of every step.

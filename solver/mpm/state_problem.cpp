@@ -48,6 +48,10 @@ std::string gauges_problem(const Domain& domain)
         std::isnan(t.x) && std::isnan(t.y) && std::isnan(t.velocity_x) && std::isnan(t.velocity_y);
     if (!(here || gone) || !std::isfinite(t.reference_x) || !std::isfinite(t.reference_y))
       return "a gauge has no position";
+    const Kink& k = t.kink;
+    for (const double value :
+         {k.normal_x, k.normal_y, k.normal, k.lateral, k.shear, k.stretch, k.slip})
+      if (!std::isfinite(value)) return "a gauge's kink is not finite";
   }
   return {};
 }

@@ -8,8 +8,8 @@ namespace mpm
 {
 namespace
 {
-constexpr double reach = 0.5;     // cells to each side
-constexpr int levels = 16;        // of a share
+constexpr double reach = 1;       // cells to each side
+constexpr int levels = 32;        // of a share
 constexpr double rounding = 1e-6; // of a level: where shares lie between two, all columns go the same way
 
 /// Integral of the hat of unit area over (-1, 1), from -1 to t.
@@ -104,7 +104,90 @@ Material mix(const std::vector<Material>& materials, int own, const std::vector<
   if (!admitted) result.law = materials[own].law;
   return result;
 }
+/// Index of the material at a point of the undeformed ground; -1 outside.
+int material_at(const Case& case_file, double x, double y)
+{
+  const double inside = std::clamp(x, case_file.domain.left, case_file.domain.right);
+  for (const Layer& layer : case_file.layers(inside, inside))
+    if (y >= layer.bottom && y < layer.top) return case_file.regions[layer.region].material;
+  return -1;
+}
+
+/// Sums over the hat around a point: how often each material is met, and the mean way in it.
+struct Ways
+{
+  double points = 0; ///< weight of all points
+  std::vector<double> share, x, y;
+};
+
+Ways ways_around(const Case& case_file, double x, double y)
+{
+  constexpr int across = 20, along = 16; // points of the hat's width, and of a way
+  const double hat = reach * case_file.grid.spacing;
+  const std::size_t materials = case_file.materials.size();
+  Ways ways{0, std::vector<double>(materials, 0.0), std::vector<double>(materials, 0.0),
+            std::vector<double>(materials, 0.0)};
+  const auto at = [&](int k) { return (2 * k + 1.0) / across - 1; };
+  for (int i = 0; i < across; ++i)
+    for (int j = 0; j < across; ++j)
+    {
+      const double dx = hat * at(i), dy = hat * at(j);
+      const int there = material_at(case_file, x + dx, y + dy);
+      if (there < 0) continue;
+      const double weight = (1 - std::fabs(at(i))) * (1 - std::fabs(at(j)));
+      ways.points += weight;
+      ways.share[there] += weight;
+      for (int k = 0; k < along; ++k)
+      {
+        const double s = (k + 0.5) / along;
+        int met = material_at(case_file, x + s * dx, y + s * dy);
+        if (met < 0) met = there; // across a hollow
+        ways.x[met] += weight / along * dx;
+        ways.y[met] += weight / along * dy;
+      }
+    }
+  return ways;
+}
 } // namespace
+
+Kink kink_at(const Case& case_file, double x, double y)
+{
+  const Ways ways = ways_around(case_file, x, y);
+  // Of a modulus' compliance c: mean over the hat, and d of (c - mean), so that a surface has no part in it.
+  struct Compliance
+  {
+    double mean = 0, x = 0, y = 0;
+  };
+  const auto sum = [&](const auto& compliance)
+  {
+    Compliance c;
+    for (std::size_t m = 0; m < case_file.materials.size(); ++m)
+      c.mean += ways.share[m] / ways.points * compliance(case_file.materials[m].elastic());
+    for (std::size_t m = 0; m < case_file.materials.size(); ++m)
+    {
+      const double more = compliance(case_file.materials[m].elastic()) - c.mean;
+      c.x += ways.x[m] / ways.points * more;
+      c.y += ways.y[m] / ways.points * more;
+    }
+    return c;
+  };
+  Kink kink;
+  if (std::count_if(ways.share.begin(), ways.share.end(), [](double share) { return share > 0; }) < 2)
+    return kink;
+  const Compliance shear = sum([](const Elastic& e) { return 1 / e.shear_modulus(); });
+  const Compliance pressure = sum([](const Elastic& e) { return 1 / e.p_modulus(); });
+  const Compliance coupling = sum([](const Elastic& e) { return 1 - 2 * e.shear_modulus() / e.p_modulus(); });
+  const double d = std::hypot(shear.x, shear.y);
+  if (d == 0) return kink;
+  kink.normal_x = shear.x / d;
+  kink.normal_y = shear.y / d;
+  const auto across = [&](const Compliance& c) { return c.x * kink.normal_x + c.y * kink.normal_y; };
+  const double G = 1 / shear.mean, M = 1 / pressure.mean;
+  kink.shear = G * d;
+  kink.normal = M * across(pressure);
+  kink.lateral = (M - 2 * G) * across(pressure) - across(coupling);
+  return kink;
+}
 
 void average_interfaces(const Case& case_file, std::vector<Seed>& seeds, std::vector<Material>& materials)
 {

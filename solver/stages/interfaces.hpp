@@ -1,5 +1,6 @@
 #pragma once
 
+#include "solver/mpm/domain.hpp"
 #include "solver/stages/fill.hpp"
 
 namespace mpm
@@ -12,4 +13,13 @@ namespace mpm
 /// sixteenth; its Material::origin tells whose it is. A law that would not admit the mixture's moduli keeps
 /// its own.
 void average_interfaces(const Case& case_file, std::vector<Seed>& seeds, std::vector<Material>& materials);
+
+/// The kink of the ground's motion at a point (m) of the undeformed ground, which averaged interfaces smooth
+/// over a cell to each side. Along a line, the ground under one traction stands at its integral of 1/G (or
+/// 1/M), and the field at the mean of that over the hat of average_interfaces; they differ by traction times
+///
+///   d = E_Y int_0^1 1/G(x + s Y) Y ds,   Y in the hat,
+///
+/// which points across the interface and is zero where one material is within reach.
+Kink kink_at(const Case& case_file, double x, double y);
 } // namespace mpm

@@ -2,6 +2,7 @@
 
 #include "io/results/checkpoint_layout.hpp"
 #include "io/results/frames.hpp"
+#include "solver/stages/interfaces.hpp"
 #include "solver/stages/motion.hpp"
 
 #include <algorithm>
@@ -155,7 +156,9 @@ void Observer::place_gauges()
     for (int k = 1; k < p.size(); ++k)
       if (distance(k) < distance(nearest)) nearest = k;
     const auto [ux, uy] = displacement_of(main, nearest);
-    main.gauges.push_back({point.x + ux, y + uy, point.x + ux, y + uy, 0, 0});
+    main.gauges.push_back({point.x + ux, y + uy, point.x + ux, y + uy});
+    if (case_file.grid.interfaces == Interfaces::averaged)
+      main.gauges.back().kink = kink_at(case_file, point.x, y);
   }
 }
 
