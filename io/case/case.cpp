@@ -47,7 +47,7 @@ GridSettings read_grid(Section grid)
                      {"none", "cell"}) == 1;
   settings.interfaces = static_cast<Interfaces>(grid.choice_or(
       0,
-      {"interfaces", "averaged: particles within half a cell of an interface have averaged elastic moduli"},
+      {"interfaces", "averaged: particles within 3/4 of a cell of an interface have averaged elastic moduli"},
       {"sharp", "averaged"}));
   return settings;
 }

@@ -49,8 +49,7 @@ std::string gauges_problem(const Domain& domain)
     if (!(here || gone) || !std::isfinite(t.reference_x) || !std::isfinite(t.reference_y))
       return "a gauge has no position";
     const Kink& k = t.kink;
-    for (const double value :
-         {k.normal_x, k.normal_y, k.normal, k.lateral, k.shear, k.stretch, k.slip})
+    for (const double value : {k.normal_x, k.normal_y, k.normal, k.lateral, k.shear, k.stretch, k.slip})
       if (!std::isfinite(value)) return "a gauge's kink is not finite";
   }
   return {};

@@ -8,9 +8,10 @@ namespace mpm
 {
 namespace
 {
-constexpr double reach = 1;       // cells to each side
-constexpr int levels = 32;        // of a share
-constexpr double rounding = 1e-6; // of a level: where shares lie between two, all columns go the same way
+constexpr double reach = 0.75;      // cells to each side
+constexpr double kink_reach = 0.85; // as far as the splines smooth what has been averaged
+constexpr int levels = 32;          // of a share
+constexpr double rounding = 1e-6;   // of a level: where shares lie between two, all columns go the same way
 
 /// Integral of the hat of unit area over (-1, 1), from -1 to t.
 double hat_below(double t)
@@ -104,13 +105,15 @@ Material mix(const std::vector<Material>& materials, int own, const std::vector<
   if (!admitted) result.law = materials[own].law;
   return result;
 }
-/// Index of the material at a point of the undeformed ground; -1 outside.
+/// Index of the material at a point of the undeformed ground, which goes on beyond its edges as it is there;
+/// -1 where there is none at all.
 int material_at(const Case& case_file, double x, double y)
 {
   const double inside = std::clamp(x, case_file.domain.left, case_file.domain.right);
+  int found = -1;
   for (const Layer& layer : case_file.layers(inside, inside))
-    if (y >= layer.bottom && y < layer.top) return case_file.regions[layer.region].material;
-  return -1;
+    if (found < 0 || layer.bottom <= y) found = case_file.regions[layer.region].material;
+  return found;
 }
 
 /// Sums over the hat around a point: how often each material is met, and the mean way in it.
@@ -122,8 +125,8 @@ struct Ways
 
 Ways ways_around(const Case& case_file, double x, double y)
 {
-  constexpr int across = 20, along = 16; // points of the hat's width, and of a way
-  const double hat = reach * case_file.grid.spacing;
+  constexpr int across = 32, along = 16; // points of the hat's width, and of a way
+  const double hat = kink_reach * case_file.grid.spacing;
   const std::size_t materials = case_file.materials.size();
   Ways ways{0, std::vector<double>(materials, 0.0), std::vector<double>(materials, 0.0),
             std::vector<double>(materials, 0.0)};
@@ -140,8 +143,8 @@ Ways ways_around(const Case& case_file, double x, double y)
       for (int k = 0; k < along; ++k)
       {
         const double s = (k + 0.5) / along;
-        int met = material_at(case_file, x + s * dx, y + s * dy);
-        if (met < 0) met = there; // across a hollow
+        const int met = material_at(case_file, x + s * dx, y + s * dy);
+        if (met < 0) continue;
         ways.x[met] += weight / along * dx;
         ways.y[met] += weight / along * dy;
       }
@@ -152,6 +155,7 @@ Ways ways_around(const Case& case_file, double x, double y)
 
 Kink kink_at(const Case& case_file, double x, double y)
 {
+  if (case_file.grid.interfaces == Interfaces::sharp) return {};
   const Ways ways = ways_around(case_file, x, y);
   // Of a modulus' compliance c: mean over the hat, and d of (c - mean), so that a surface has no part in it.
   struct Compliance
@@ -171,14 +175,14 @@ Kink kink_at(const Case& case_file, double x, double y)
     }
     return c;
   };
-  Kink kink;
   if (std::count_if(ways.share.begin(), ways.share.end(), [](double share) { return share > 0; }) < 2)
-    return kink;
+    return {};
   const Compliance shear = sum([](const Elastic& e) { return 1 / e.shear_modulus(); });
   const Compliance pressure = sum([](const Elastic& e) { return 1 / e.p_modulus(); });
   const Compliance coupling = sum([](const Elastic& e) { return 1 - 2 * e.shear_modulus() / e.p_modulus(); });
   const double d = std::hypot(shear.x, shear.y);
-  if (d == 0) return kink;
+  if (d == 0) return {};
+  Kink kink;
   kink.normal_x = shear.x / d;
   kink.normal_y = shear.y / d;
   const auto across = [&](const Compliance& c) { return c.x * kink.normal_x + c.y * kink.normal_y; };

@@ -156,9 +156,7 @@ void Observer::place_gauges()
     for (int k = 1; k < p.size(); ++k)
       if (distance(k) < distance(nearest)) nearest = k;
     const auto [ux, uy] = displacement_of(main, nearest);
-    main.gauges.push_back({point.x + ux, y + uy, point.x + ux, y + uy});
-    if (case_file.grid.interfaces == Interfaces::averaged)
-      main.gauges.back().kink = kink_at(case_file, point.x, y);
+    main.gauges.push_back({point.x + ux, y + uy, point.x + ux, y + uy, 0, 0, kink_at(case_file, point.x, y)});
   }
 }
 

@@ -2,6 +2,7 @@
 #include "test/verification/column.hpp"
 
 #include "io/case/units.hpp"
+#include "solver/stages/interfaces.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -24,8 +25,10 @@ std::map<std::string, History> shake_gauges(const Case& case_file, long samples)
   Model model = make_model(case_file);
   const auto& gauges = case_file.output.gauges.points;
   for (const GaugePoint& gauge : gauges)
-    model.main->gauges.push_back(
-        {gauge.x, std::min(gauge.y, case_file.ground_height(gauge.x)), gauge.x, gauge.y, 0, 0});
+  {
+    const double y = std::min(gauge.y, case_file.ground_height(gauge.x));
+    model.main->gauges.push_back({gauge.x, y, gauge.x, gauge.y, 0, 0, kink_at(case_file, gauge.x, y)});
+  }
   add_seismic_boundaries(model, case_file, wave_of(case_file), false);
   for (const auto& [part, domain] : model.domains())
     domain->settings.flip_blend = case_file.seismic.flip_blend;
