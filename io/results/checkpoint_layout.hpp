@@ -17,7 +17,7 @@
 namespace mpm::checkpoint
 {
 /// The version of the layout. A state of another one is refused.
-inline constexpr std::string_view schema = "seismpm-checkpoint/3";
+inline constexpr std::string_view schema = "seismpm-checkpoint/4";
 
 // Objects of the root.
 inline constexpr const char *case_text = "case", *case_resolved = "case_resolved", *overrides = "overrides",
