@@ -153,7 +153,8 @@ TEST_CASE("A gauge on an interface reads the ground's motion with order 2", "[st
     INFO((shear ? "S" : "P") << " waves at " << heights[g] << " m: " << coarse[g] << " and " << fine[g]);
     CHECK(coarse[g] < 0.05);
     CHECK(fine[g] < 0.022);
-    // The aim is a third and a half; where the coarse error is below 1 % already, others come to light.
+    // Order 1.8 or better; where the finer error is below the floor of 0.25 % other errors of the method take
+    // part. The floor was set after trial runs.
     CHECK((coarse[g] > 3.5 * fine[g] || fine[g] < 0.0025));
   }
 }
