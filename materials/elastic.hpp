@@ -46,6 +46,8 @@ struct Elastic
   /// What is wrong with the parameters taken together, as `key: what` (empty: nothing); fixes derived values.
   /// `spacing` is the grid's, in m.
   std::string resolve(double /*spacing*/) { return {}; }
+  /// Width in m over which a band softens by its slip, see average_flow; 0: by each point's own strain.
+  double averaging_length() const { return 0; }
 
   /// What a user should know of the parameters before a run (empty: nothing), and what speaks against them,
   /// as `key: what`.

@@ -62,6 +62,11 @@ struct Material
   {
     return const_cast<std::vector<double>*>(std::as_const(*this).field(name));
   }
+  /// Width in m over which a band softens by its slip, see average_flow; 0: it does not.
+  double averaging_length() const
+  {
+    return std::visit([](const auto& l) { return l.averaging_length(); }, law);
+  }
   /// Energy in J per m3 of undeformed volume that plastic flow has dissipated at the material's k-th
   /// particle.
   double dissipated(int k) const

@@ -59,6 +59,7 @@ struct MohrCoulomb : Elastic, LinearSoftening
   }
   static constexpr auto state_fields() { return flow_and_cracks; }
 
+  double averaging_length() const { return band(); } ///< m
   std::string resolve(double spacing);
   std::string note() const;
   std::vector<std::string> warnings(double spacing) const;

@@ -69,6 +69,7 @@ struct SlipWeakening : Elastic
   std::string note() const;
   std::vector<std::string> warnings(double spacing) const;
   double snap_back_pressure() const;
+  double averaging_length() const { return weakens() ? thickness : 0; } ///< m
 
   /// Friction coefficient after a plastic strain, eqs. (7) and (8).
   double friction(double plastic_strain) const

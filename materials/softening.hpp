@@ -103,6 +103,14 @@ struct LinearSoftening
            "or a larger strain";
   }
 
+  /// Width of the band that softens by a displacement, m; 0: a strain is given, or there is no softening.
+  double band() const
+  {
+    return idle_ || std::isnan(softening_displacement)
+               ? 0
+               : softening_displacement / (std::sqrt(3.0) * softening_strain);
+  }
+
 private:
   bool resolved_ = false, idle_ = false;
 };

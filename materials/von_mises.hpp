@@ -37,6 +37,7 @@ struct VonMises : Elastic, LinearSoftening
     return {{{"plastic_strain", "1", "accumulated equivalent plastic strain"}}};
   }
 
+  double averaging_length() const { return band(); } ///< m
   std::string resolve(double spacing)
   {
     if (const std::string unused = refuse_unused(!std::isnan(residual), "strength.residual"); !unused.empty())

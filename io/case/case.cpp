@@ -40,13 +40,18 @@ GridSettings read_grid(Section grid)
   settings.spacing = grid.number({"spacing", "cell size h"}, Dimension::length, Interval::positive());
   settings.particles_per_cell = grid.integer_or(
       settings.particles_per_cell, {"particles_per_cell", "particles along each side of a cell"}, 1, 10);
+  settings.average_flow =
+      grid.choice_or(0,
+                     {"softening", "averaged: a band softens by its slip over the width that its law states; "
+                                   "local: each particle by its own strain, as the paper's"},
+                     {"averaged", "local"}) == 0;
   settings.average_volume =
       grid.choice_or(0,
                      {"volume_average", "cell: ground that can yield changes its volume by cells, not by "
                                         "particles, which unlocks flow at constant volume"},
                      {"none", "cell"}) == 1;
   settings.interfaces = static_cast<Interfaces>(grid.choice_or(
-      0,
+      1,
       {"interfaces", "averaged: particles within 3/4 of a cell of an interface have averaged elastic moduli"},
       {"sharp", "averaged"}));
   return settings;
@@ -145,8 +150,9 @@ void read_parts(Case& case_file, const YamlNode& tree, Problems& problems)
   case_file.static_stage = read_static(root.optional_section("static"));
   case_file.seismic = read_seismic(root, folder, problems);
   Section time_step = root.optional_section("time_step");
-  case_file.courant_number = read_courant_number(time_step, case_file.courant_number,
-                                                 "Courant number dt c_p / h; a smaller one damps waves more");
+  case_file.courant_number = read_courant_number(
+      time_step, case_file.courant_number,
+      "Courant number dt c_p / h; with seismic.transfer: apic a smaller one damps waves more");
   case_file.output = read_output(root, case_file.materials, problems);
 }
 

@@ -31,8 +31,9 @@ struct GridSettings
 {
   double spacing = NAN;
   int particles_per_cell = 3;
+  bool average_flow = true;    ///< bands soften by their slip over the width of the law, see average_flow
   bool average_volume = false; ///< volume changes of the cell, not of the particle
-  Interfaces interfaces = Interfaces::sharp;
+  Interfaces interfaces = Interfaces::averaged;
 
   double particle_spacing() const { return spacing / particles_per_cell; } ///< m
 };
@@ -128,11 +129,18 @@ struct MotionSettings
 /// spring_time().
 using SpringTime = std::optional<double>;
 
-/// `seismic.flip_ends`: what ends the share of FLIP.
-enum class FlipEnds
+/// `seismic.transfer`: how particles take over the nodes' velocities.
+enum class Transfer
 {
-  on_slide, ///< ground that has slid
-  never
+  flip, ///< they take the change and keep the rest, see NullSpaceFilter for what of it
+  apic  ///< they take the velocity: the paper's method
+};
+
+/// `seismic.filter`: what becomes of velocities and stresses that the grid cannot carry.
+struct FilterSettings
+{
+  double time = 3;       ///< s, NullSpaceFilter::time
+  double strain = 0.003; ///< NullSpaceFilter::strain
 };
 
 /// `seismic.inertia`: the mass in the equation of motion.
@@ -157,9 +165,9 @@ struct SeismicSettings
   BaseKind base = BaseKind::compliant; ///< for the domain and the columns
   SpringTime spring;
   SideKind sides = SideKind::free_field;
-  double flip_blend = 0; ///< share of FLIP in the velocity update
-  FlipEnds flip_ends = FlipEnds::on_slide;
-  Inertia inertia = Inertia::lumped; ///< the mass matrix of the grid
+  Transfer transfer = Transfer::flip;
+  FilterSettings filter;                 ///< with APIC none by default
+  Inertia inertia = Inertia::consistent; ///< the mass matrix of the grid
   GroundLeaving leaving = GroundLeaving::remove;
   double rest_below = 0; ///< speed of ground that may be skipped after the motion, m/s; 0: none is, see Rest
   MotionSettings motion;
@@ -194,8 +202,7 @@ struct CheckpointSettings
 };
 
 /// `output.slide`: which ground counts as slid, relative to the base. It enters the measures of the run-out,
-/// and with them what ends a motion (`seismic.motion.end: self_driven`) and a share of FLIP
-/// (`seismic.flip_ends: on_slide`).
+/// and with them what ends a motion (`seismic.motion.end: self_driven`).
 struct SlideSettings
 {
   double moved = 1; ///< m beyond which ground has slid

@@ -15,6 +15,8 @@ struct RenamedKey
 inline constexpr std::array renamed_keys{
     RenamedKey{"time_step.safety", "time_step.courant_number"},
     RenamedKey{"static.safety", "static.courant_number"},
+    RenamedKey{"seismic.flip_blend", "seismic.transfer"},
+    RenamedKey{"seismic.flip_ends", "seismic.filter.time"},
 };
 
 /// What a key is called that has had the path `before`; empty: it was none.

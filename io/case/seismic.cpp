@@ -138,6 +138,22 @@ SpringTime read_spring(Section& base, BaseKind kind, Problems& problems)
   return {};
 }
 
+FilterSettings read_filter(Section filter, Transfer transfer)
+{
+  FilterSettings settings;
+  if (transfer == Transfer::apic) settings = {0, 0}; // it filters velocities in every step
+  settings.time = filter.number_or(
+      settings.time,
+      {"time", "in which velocities that the grid does not carry fade; 0: they are kept; with apic 0"},
+      Dimension::time, Interval::not_negative());
+  settings.strain = filter.number_or(
+      settings.strain,
+      {"strain",
+       "plastic strain over which stresses that the grid does not carry fade; 0: they are kept; with apic 0"},
+      Dimension::none, Interval::not_negative());
+  return settings;
+}
+
 constexpr std::string_view with_record = "record";
 
 /// What follows the record in `record` or `record + TIME`, s; NaN: the text is neither.
@@ -235,14 +251,14 @@ SeismicSettings read_seismic(Section& root, const std::filesystem::path& folder,
                                                        "domain; quiet: dashpots; roller: no sideways motion"},
                                               {"free_field", "quiet", "roller"}));
   }
-  settings.flip_blend =
-      section.number_or(0, {"flip_blend", "share of FLIP in the velocity update, which damps waves less"},
-                        Dimension::none, {.lower = 0, .upper = 1, .upper_allowed = false});
-  settings.flip_ends = static_cast<FlipEnds>(section.choice_or(
-      0, {"flip_ends", "on_slide: the share of FLIP fades within a second once ground has slid"},
-      {"on_slide", "never"}));
+  settings.transfer = static_cast<Transfer>(section.choice_or(
+      0,
+      {"transfer",
+       "how particles take over the nodes' velocities; apic: the paper's method, which brakes slides"},
+      {"flip", "apic"}));
+  settings.filter = read_filter(section.optional_section("filter"), settings.transfer);
   settings.inertia = static_cast<Inertia>(
-      section.choice_or(0, {"inertia", "consistent: waves travel at their speed down to ten cells a wave"},
+      section.choice_or(1, {"inertia", "consistent: waves travel at their speed down to ten cells a wave"},
                         {"lumped", "consistent"}));
   settings.leaving = static_cast<GroundLeaving>(section.choice_or(
       0, {"leaving", "what becomes of ground that passes a side or the base; stop: the run ends then"},

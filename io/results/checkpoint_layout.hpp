@@ -6,7 +6,7 @@
 //   run level         solver/stages/checkpoint.cpp
 //   /relaxation       solver/stages/relaxation.cpp
 //   /output           solver/stages/observer_resume.cpp, slide.cpp; io/results/history.cpp
-//   /motion           solver/stages/shaking.cpp, self_driven.cpp, flip_blend.hpp
+//   /motion           solver/stages/shaking.cpp, self_driven.cpp
 //   each domain       io/results/domain_state.cpp; its `boundary/NAME`, `energy`, `departed` and `rest` by
 //   the
 //                     visit_... of what they hold, in boundaries/ and solver/mpm/
@@ -85,7 +85,6 @@ inline constexpr std::array of_run{
     Object{"motion@motion.vertical", In::seismic, "likewise"},
     Object{"motion@since", In::seismic, "since when the slide seems self-driven, s; NaN: it does not"},
     Object{"motion@decided", In::seismic, "when it was decided to be, s; NaN: not yet"},
-    Object{"motion@slid", In::seismic, "when the share of FLIP began to fade, s; NaN: not yet"},
     Object{"free_field/", In::both, "the columns, each with the groups of a domain"},
     Object{"free_field/SIDE/", In::both, "left or right"},
 };

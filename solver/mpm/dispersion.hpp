@@ -13,12 +13,13 @@
 
 namespace mpm
 {
-/// Cell size h in m, time step in s and the share of FLIP in the velocity update (0: affine transfer alone).
+/// Cell size h in m, time step in s, and how velocities pass between particles and grid.
 struct Resolution
 {
   double spacing;
   double dt;
-  double flip_blend = 0;
+  bool flip = false;               ///< false: the affine transfer takes its part in every step
+  double filter_time = 0;          ///< of filter_velocities, with FLIP, s; 0: no filter
   bool consistent_inertia = false; ///< see correct_inertia
 };
 
@@ -33,10 +34,10 @@ inline double wave_number_cells(const Resolution& r, double speed, double freque
 }
 
 /// Lag of consistent inertia over (k h)^4: 31/720 of w = c k sinc^4(k h / 2) sqrt(1 + 2/3 (1 - cos k h)),
-/// less what the transfer's loss hastens the step, (1 - G) / 4.
+/// less what the affine transfer's loss hastens the step, (1 - G) / 4.
 inline double consistent_lag(const Resolution& r)
 {
-  return 31.0 / 720 - 0.25 * (1 - r.flip_blend) * transfer_loss;
+  return 31.0 / 720 - 0.25 * (r.flip ? 0 : transfer_loss);
 }
 
 /// Share by which the wave is too slow: (k h)^2 (1/6 - C^2/24), C = dt speed / h. The first part is the
@@ -48,12 +49,15 @@ inline double phase_error(const Resolution& r, double speed, double frequency)
   return kh * kh * ((r.consistent_inertia ? consistent_lag(r) * kh * kh : 1.0 / 6) - courant * courant / 24);
 }
 
-/// Damping ratio that the transfer gives the wave: a (k h)^3 / (2 C), each step the same loss, so that half
-/// the step damps twice as much. FLIP keeps its share of the velocity out of the transfer.
+/// Damping ratio that the affine transfer gives the wave: a (k h)^3 / (2 C), each step the same loss, so that
+/// half the step damps twice as much. With FLIP the filter takes a^2 (k h)^8 of the velocity in its time T,
+/// whatever the step: a^2 (k h)^7 h / (2 T speed).
 inline double numerical_damping(const Resolution& r, double speed, double frequency)
 {
   const double kh = wave_number_cells(r, speed, frequency), courant = r.dt * speed / r.spacing;
-  return (1 - r.flip_blend) * transfer_loss * kh * kh * kh / (2 * courant);
+  if (!r.flip) return transfer_loss * kh * kh * kh / (2 * courant);
+  if (r.filter_time == 0) return 0;
+  return transfer_loss * transfer_loss * std::pow(kh, 7) * r.spacing / (2 * r.filter_time * speed);
 }
 
 /// Frequency in Hz up to which the phase error is at most `share`, at Courant numbers below 1 and shares
@@ -69,9 +73,9 @@ inline double phase_limit(const Resolution& r, double speed, double share)
   return std::sqrt(share / phase_error(r, speed, 1));
 }
 
-/// Frequency in Hz up to which the numerical damping is at most `ratio`; infinite with FLIP alone.
+/// Frequency in Hz up to which the numerical damping is at most `ratio`; infinite with FLIP and no filter.
 inline double damping_limit(const Resolution& r, double speed, double ratio)
 {
-  return std::cbrt(ratio / numerical_damping(r, speed, 1));
+  return std::pow(ratio / numerical_damping(r, speed, 1), 1.0 / (r.flip ? 7 : 3));
 }
 } // namespace mpm

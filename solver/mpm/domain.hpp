@@ -3,6 +3,7 @@
 #include "materials/material.hpp"
 #include "solver/mpm/boundary.hpp"
 #include "solver/mpm/departures.hpp"
+#include "solver/mpm/filters.hpp"
 #include "solver/mpm/grid.hpp"
 #include "solver/mpm/parallel.hpp"
 #include "solver/mpm/particles.hpp"
@@ -65,8 +66,11 @@ struct Gauge
 struct StepSettings
 {
   double gravity_x = 0, gravity_y = 0; ///< body acceleration of now, m/s2
-  double local_damping = 0;        ///< beta of eq. (1): the share of a node's force that resists its motion
-  double flip_blend = 0;           ///< share of FLIP in the particles' velocities, see grid_to_particles
+  double local_damping = 0; ///< beta of eq. (1): the share of a node's force that resists its motion
+  bool flip =
+      false; ///< whether particles keep their velocities and take the change only, see grid_to_particles
+  NullSpaceFilter filter;
+  bool average_flow = false;       ///< bands soften by their slip over the width of the law, see average_flow
   bool average_volume = false;     ///< volume changes averaged over the cell, see average_volume_changes
   bool consistent_inertia = false; ///< whether the step corrects the lumped mass, see correct_inertia
   bool plastic = true;             ///< whether the laws may yield

@@ -64,6 +64,16 @@ double brought(const Energies& flow)
 }
 } // namespace
 
+double elastic_energy(const Domain& domain)
+{
+  return content_of(domain).elastic;
+}
+
+double dissipated_energy(const Domain& domain)
+{
+  return content_of(domain).plastic;
+}
+
 void open_energy_balance(Domain& domain)
 {
   EnergyBalance& l = domain.energy = {};

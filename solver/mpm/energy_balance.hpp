@@ -82,6 +82,12 @@ struct EnergyBalance
   double gravity_x = 0, gravity_y = 0;
 };
 
+/// Elastic energy of the particles, J per m: V/2 sigma : C^-1 : sigma, half a step back.
+double elastic_energy(const Domain& domain);
+
+/// Energy that plastic flow has dissipated according to the laws' history, J per m.
+double dissipated_energy(const Domain& domain);
+
 /// Begins the energy balance with the domain as it is, at rest or free of stress.
 void open_energy_balance(Domain& domain);
 

@@ -78,6 +78,22 @@ struct NodeSums
   return sum;
 }
 
+/// Sum over the nodes w v, of the particles from k on.
+[[gnu::noinline]] Lanes sum_values(const Tile& field, const LaneCells& cells, const Splines& s, int k)
+{
+  Lanes sum{};
+#pragma GCC unroll 4
+  for (int j = 0; j < 4; ++j)
+  {
+    Lanes node[4], value{};
+    cells.pick(field, j, node);
+#pragma GCC unroll 4
+    for (int i = 0; i < 4; ++i) value += load_as<Lanes>(&s.x.weight[i][k]) * node[i];
+    sum += load_as<Lanes>(&s.y.weight[j][k]) * value;
+  }
+  return sum;
+}
+
 /// Takes the factors of the splines out of velocities, v / 36. A rounded 1/36 would change the momentum step
 /// by step; 7/256 is exact, and the rounding of the rest, 1/2304 or a 64th of the whole, is too small to
 /// matter.
@@ -121,7 +137,7 @@ void read_change(const Grid& grid, const Neighbours& around, const NodeField& mo
 struct Transfer
 {
   double dt, spacing;
-  double blend; ///< share of FLIP
+  bool flip; ///< particles keep their velocities and take the change only
 };
 
 /// One component of the motion of all particles, and of the velocity gradient of a chunk of them.
@@ -140,18 +156,18 @@ public:
       : transfer_(transfer)
   {
     read_tile(grid, around, velocity, velocity_);
-    if (transfer.blend > 0) read_change(grid, around, momentum, velocity_, change_);
+    if (transfer.flip) read_change(grid, around, momentum, velocity_, change_);
   }
 
   /// Of n particles, k being the index of the first in the chunk and q in all:
   ///
   ///   v = sum w v*,   C = 3 / h^2 sum w v* (x_i - x)^T (eq. 3),   L = sum v* grad w^T,   x += dt v,
   ///
-  /// and with a share of FLIP, a = `blend`, v_p = v + a (v_p + sum w (v* - P/m) - v) for what they keep.
+  /// and with FLIP v_p + sum w (v* - P/m) for the velocity that they keep.
   [[gnu::always_inline]] inline void apply(const LaneCells& cells, const Splines& s, int k, int q, int n,
                                            const MotionFields& particles, Extremes& greatest) const
   {
-    const auto [dt, spacing, blend] = transfer_;
+    const auto [dt, spacing, flip] = transfer_;
     const double affine = 3 * inverse_weights / spacing, slope = inverse_slopes / spacing; // D = h^2 / 3
     const NodeSums r = sum_nodes(velocity_, cells, s, k);
     greatest.take(r);
@@ -159,13 +175,8 @@ public:
     double* const x = &particles.position[q];
     store_first(x, load_first(x, n) + dt * v, n);
     double* const velocity = &particles.velocity[q];
-    if (blend > 0)
-    {
-      const Lanes change = without_weights(sum_nodes(change_, cells, s, k).value);
-      store_first(velocity, v + blend * (load_first(velocity, n) + change - v), n);
-    }
-    else
-      store_first(velocity, v, n);
+    store_first(velocity,
+                flip ? load_first(velocity, n) + without_weights(sum_values(change_, cells, s, k)) : v, n);
     store_first(&particles.affine_x[q], affine * r.moment_x, n);
     store_first(&particles.affine_y[q], affine * r.moment_y, n);
     store(&particles.gradient_x[k], slope * r.slope_x);
@@ -182,7 +193,7 @@ private:
 double update_block(Domain& domain, const OccupiedBlock& occupied, double dt)
 {
   const Grid& grid = domain.grid;
-  const Transfer transfer{dt, grid.spacing, domain.settings.flip_blend};
+  const Transfer transfer{dt, grid.spacing, domain.settings.flip};
   const Component x(grid, occupied.around, grid.velocity_x, grid.momentum_x, transfer);
   const Component y(grid, occupied.around, grid.velocity_y, grid.momentum_y, transfer);
   const TileStencils tile(grid, occupied.block);

@@ -18,8 +18,9 @@ struct Particles
   std::vector<double> stress_xx, stress_yy, stress_zz, stress_xy; ///< Cauchy stress, Pa
   std::vector<double> mass;                                       ///< kg per m out of plane
   std::vector<double> volume;                                     ///< current, m3 per m out of plane
-  std::vector<std::int64_t> id;                                   ///< stable name of the particle
-  std::vector<int> index_of; ///< index in these arrays by id; -1: the particle has left
+  std::vector<double> noted_flow; ///< plastic strain when the flow was looked at last, see follow_flow
+  std::vector<std::int64_t> id;   ///< stable name of the particle
+  std::vector<int> index_of;      ///< index in these arrays by id; -1: the particle has left
 
   int size() const { return static_cast<int>(x.size()); }
   void resize(int count);
@@ -53,6 +54,7 @@ inline constexpr std::array particle_fields{
         {&Particles::stress_xx, &Particles::stress_yy, &Particles::stress_zz, &Particles::stress_xy}},
     ParticleField{"mass", "kg/m", 1, {&Particles::mass}},
     ParticleField{"volume", "m3/m", 1, {&Particles::volume}},
+    ParticleField{"noted_flow", "1", 1, {&Particles::noted_flow}},
 };
 
 /// Calls f(values) for every array of doubles that a particle has.

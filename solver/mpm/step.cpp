@@ -1,5 +1,7 @@
 #include "solver/mpm/step.hpp"
 
+#include "solver/mpm/flow.hpp"
+
 #include <cmath>
 
 namespace mpm
@@ -39,6 +41,8 @@ void step(Domain& domain, double dt)
   domain.measures.times.start();
   if (domain.blocks.drift > sort_limit - move_limit) sort_particles(domain);
   domain.measures.times.end(Phase::sort);
+  filter_velocities(domain, dt);
+  follow_flow(domain, dt);
   particles_to_grid(domain, dt); // (a)
   solve_grid(domain, dt);        // (b)
   domain.measures.times.end(Phase::grid);

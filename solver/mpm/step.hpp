@@ -24,9 +24,9 @@ void particles_to_grid(Domain& domain, double dt);
 /// (b): the nodes' velocities at the end of the step, and what the forces did (EnergyBalance::step).
 void solve_grid(Domain& domain, double dt);
 
-/// (c) and (d), chunk by chunk. With StepSettings::flip_blend = a > 0 particles keep a share of their own
-/// velocity, v = (1 - a) sum w v* + a (v_p + sum w (v* - P/m)) (FLIP: Brackbill & Ruppel, J. Comput. Phys. 65
-/// (1986) 314), which the filter of the transfers then does not damp; C and the path are those of a = 0.
+/// (c) and (d), chunk by chunk. With StepSettings::flip particles keep their own velocity and take the
+/// nodes' change, v = v_p + sum w (v* - P/m) (FLIP: Brackbill & Ruppel, J. Comput. Phys. 65 (1986) 314), so
+/// that no step damps it and filter_velocities has to; C and the path are the same.
 /// Gauges move with the grid.
 void grid_to_particles(Domain& domain, double dt);
 

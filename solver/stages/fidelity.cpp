@@ -45,8 +45,8 @@ void report_share(Session& session, const Material& material, const Kind& kind, 
 void report_wave_fidelity(Session& session, double dt, const IncomingWave* wave)
 {
   const SeismicSettings& seismic = session.case_file.seismic;
-  const Resolution resolution{session.case_file.grid.spacing, dt, wave ? seismic.flip_blend : 0,
-                              wave && seismic.inertia == Inertia::consistent};
+  const Resolution resolution{session.case_file.grid.spacing, dt, wave && seismic.transfer == Transfer::flip,
+                              seismic.filter.time, wave && seismic.inertia == Inertia::consistent};
   const GridSettings& grid = session.case_file.grid;
   nlohmann::json& facts = session.facts["resolution"];
   facts = {{"spacing", grid.spacing}, {"particles_per_cell", grid.particles_per_cell}};
@@ -77,7 +77,7 @@ void report_wave_fidelity(Session& session, double dt, const IncomingWave* wave)
       if (spectra[k]) report_share(session, material, kinds[k], limit, *spectra[k], found);
     }
   }
-  if (wave && session.case_file.courant_number < usual_courant_number)
+  if (wave && seismic.transfer == Transfer::apic && session.case_file.courant_number < usual_courant_number)
     session.log.warn("time_step.courant_number: {} is below {}: waves lose the same in every step, so that "
                      "numerical damping "
                      "is {:.2g} times that of {}; a smaller step is not a more accurate one",

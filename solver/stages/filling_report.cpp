@@ -8,9 +8,8 @@ namespace mpm
 {
 namespace
 {
-constexpr double area_off = 0.05;    // share of a region's area that may be lost or gained unsaid
-constexpr double length_off = 0.1;   // share of its length over which it may be lost unsaid
-constexpr double cells_to_yield = 4; // across a layer, see SlipWeakening and the verification cases
+constexpr double area_off = 0.05;  // share of a region's area that may be lost or gained unsaid
+constexpr double length_off = 0.1; // share of its length over which it may be lost unsaid
 
 std::string name_of(const Case& case_file, std::size_t region)
 {
@@ -63,15 +62,17 @@ void warn_of_differences(Log& log, const Case& case_file, std::size_t region, co
 /// each other (cases/verification/sliding_block measures by how much).
 void warn_of_thinness(Log& log, const Case& case_file, std::size_t region, const RegionFilling& got)
 {
+  // Across a layer: cases/verification, sliding_block and weakening_slope.
+  const double least = case_file.seismic.transfer == Transfer::flip ? 3 : 4;
   const Material& material = case_file.materials[case_file.regions[region].material];
   const double cells = got.thickness / case_file.grid.spacing;
-  if (material.state_fields().empty() || cells >= cells_to_yield * (1 - 1e-9)) return;
-  log.warn(
-      "{}: can yield, and its layer is {:.2g} cells thick in the mean: across less than {:.0f} the sides of "
-      "a "
-      "layer reach and hold each other, so that it slips too late and too little (with four cells a block "
-      "slides a quarter short); use smaller cells or a thicker layer",
-      name_of(case_file, region), cells, cells_to_yield);
+  if (material.state_fields().empty() || cells >= least * (1 - 1e-9)) return;
+  log.warn("{}: can yield, and its layer is {:.2g} cells thick in the mean: across less than {:.0f} the "
+           "sides of a "
+           "layer reach and hold each other, so that it slips too late and too little; use smaller cells or "
+           "a thicker "
+           "layer",
+           name_of(case_file, region), cells, least);
 }
 
 /// A compliant base carries the ground above it by the faces of its lowest particles: where there are none,

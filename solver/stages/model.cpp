@@ -83,7 +83,10 @@ Model make_model(const Case& case_file)
     model.right = make_column(case_file, materials, seeds, Edge::right);
   }
   for (const auto& [part, domain] : model.domains())
+  {
     domain->settings.average_volume = case_file.grid.average_volume;
+    domain->settings.average_flow = case_file.grid.average_flow;
+  }
   return model;
 }
 

@@ -35,6 +35,10 @@ Model make_model(const Case& case_file);
 /// have a base only.
 void add_static_boundaries(Model& model, const Case& case_file);
 
+/// How velocities and stresses pass between particles and grid from the shaking on: `seismic.transfer` and
+/// `seismic.filter`.
+void set_transfer(StepSettings& step, const SeismicSettings& seismic);
+
 /// The switch from statics to shaking: walls leave, and their reaction stays as images, frozen in that state
 /// (../../boundaries/README.md); particles come to rest; base and sides become what the case's seismic
 /// section says. With `restarting`, the boundaries are left empty for a checkpoint to fill.

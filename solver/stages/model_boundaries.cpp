@@ -1,5 +1,6 @@
 // What holds the model in either stage, and the switch between them.
 
+#include "solver/mpm/flow.hpp"
 #include "solver/stages/model.hpp"
 
 #include "boundaries/frozen_images.hpp"
@@ -36,7 +37,7 @@ void add_walls(Domain& domain, std::span<const Wall> walls)
   for (const Wall& wall : walls) domain.boundaries.push_back(std::make_unique<MirroredWall>(wall));
 }
 
-/// Nothing moves, and displacements count from here.
+/// Nothing moves, and displacements and flow count from here.
 void come_to_rest(Domain& domain)
 {
   Particles& p = domain.particles;
@@ -44,6 +45,7 @@ void come_to_rest(Domain& domain)
   p.reference_y = p.y;
   for (auto* values : {&p.velocity_x, &p.velocity_y, &p.affine_xx, &p.affine_xy, &p.affine_yx, &p.affine_yy})
     std::fill(values->begin(), values->end(), 0.0);
+  note_flow(domain);
 }
 
 /// Walls that stay, images for those that leave, and the compliant base, which is returned (null: there is
@@ -103,6 +105,12 @@ void add_static_boundaries(Model& model, const Case& case_file)
   }
 }
 
+void set_transfer(StepSettings& step, const SeismicSettings& seismic)
+{
+  step.flip = seismic.transfer == Transfer::flip;
+  step.filter = {seismic.filter.time, seismic.filter.strain};
+}
+
 void add_seismic_boundaries(Model& model, const Case& case_file, std::shared_ptr<const IncomingWave> wave,
                             bool restarting)
 {
@@ -118,6 +126,7 @@ void add_seismic_boundaries(Model& model, const Case& case_file, std::shared_ptr
       walls.insert(walls.end(), {left_wall(), right_wall(case_file)});
     }
     domain->settings.local_damping = 0;
+    set_transfer(domain->settings, case_file.seismic);
     domain->settings.consistent_inertia = case_file.seismic.inertia == Inertia::consistent;
     domain->settings.gravity_y = -case_file.static_stage.gravity;
     domain->settings.plastic = true; // from here on, in the columns too

@@ -21,8 +21,7 @@ constexpr int check_every = 100; // steps between looks at particles, energies a
 Shaking::Shaking(Session& session, Model& model, const Motion& motion, std::string from)
     : session_(session), case_file_(session.case_file), model_(model), motion_(motion),
       from_(std::move(from)), observer_(session, model, *motion.wave), energy_(session, model),
-      departures_(session, model), self_driven_(case_file_.output.slide),
-      flip_(case_file_.seismic.flip_blend, case_file_.seismic.flip_ends)
+      departures_(session, model), self_driven_(case_file_.output.slide)
 {
 }
 
@@ -43,7 +42,6 @@ void Shaking::load(const h5::File& state, Clock& clock)
   observer_.load(state, clock, first_step);
   const h5::Group motion = state.open_group(checkpoint::motion);
   self_driven_.load(motion, clock.time());
-  flip_.load(motion, clock.time());
   fade_when_self_driven();
 }
 
@@ -118,7 +116,6 @@ Shaking::Ended Shaking::loop(Clock& clock, Progress& progress)
 
 void Shaking::step(Clock& clock)
 {
-  for (const auto& [part, domain] : model_.domains()) domain->settings.flip_blend = flip_.at(clock.time());
   advance(model_, clock.time(), clock.dt);
   ++clock.step;
 }
@@ -127,7 +124,6 @@ void Shaking::step(Clock& clock)
 void Shaking::look_after(Clock& clock)
 {
   observer_.look(clock, false);
-  flip_.note(observer_.slide().now().area > 0, clock.time());
   end_motion();
   if (clock.step % check_every != 0) return;
   limit_openings(*model_.main);
@@ -198,7 +194,6 @@ void Shaking::save(const std::string& name, const Clock& clock)
                      h5::Group motion = file.create_group(checkpoint::motion);
                      for (const auto& [key, value] : motion_.identity) motion.attribute(key, value);
                      self_driven_.save(motion);
-                     flip_.save(motion);
                    });
   observer_.write(applied_until(clock));
   session_.folder->prune(case_file_.output.checkpoint.keep);

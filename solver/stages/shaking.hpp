@@ -2,7 +2,6 @@
 
 #include "solver/stages/departures.hpp"
 #include "solver/stages/energy_watch.hpp"
-#include "solver/stages/flip_blend.hpp"
 #include "solver/stages/motion.hpp"
 #include "solver/stages/observer.hpp"
 #include "solver/stages/resume.hpp"
@@ -56,6 +55,5 @@ private:
   EnergyWatch energy_;
   Departures departures_;
   SelfDriven self_driven_;
-  FlipBlend flip_;
 };
 } // namespace mpm

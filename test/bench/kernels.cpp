@@ -65,7 +65,7 @@ void grid(benchmark::State& state)
 void gather(benchmark::State& state)
 {
   Domain domain = ground(static_cast<int>(state.range(0)));
-  domain.settings.flip_blend = static_cast<double>(state.range(1)) / 100;
+  domain.settings.flip = state.range(1) != 0;
   for (auto _ : state) grid_to_particles(domain, time_step);
   per_particle(state, domain.particles.size());
 }

@@ -89,7 +89,7 @@ TEST_CASE("with consistent inertia a wave of ten cells is nearly as fast as it s
   const double courant = GENERATE(0.05, 0.35);
   const Elastic law = elastic(1e6, 0.3);
   const double speed = law.shear_speed(), exact = speed / cells;
-  const Resolution resolution{1, courant / speed, 0, true};
+  const Resolution resolution{.spacing = 1, .dt = courant / speed, .consistent_inertia = true};
   const Wave found = standing_wave(true, cells, courant, true);
   const double slow = phase_error(resolution, speed, exact), kh = 2 * std::numbers::pi / cells;
   CAPTURE(cells, courant, slow, 1 - found.frequency / exact);

@@ -202,26 +202,25 @@ TEST_CASE("A within motion is refused with the reason, and recorded_as has no de
         MotionEnd::self_driven);
 }
 
-TEST_CASE("The share of FLIP ends when ground slides unless the case keeps it", "[io]")
+TEST_CASE("The paper's transfer has no filter unless the case asks for one", "[io]")
 {
-  const std::string shaken = small + "seismic:\n  duration: 1 s\n  flip_blend: 0.9\n";
-  CHECK(load(shaken).seismic.flip_ends == FlipEnds::on_slide);
-  CHECK(load(shaken + "  flip_ends: never\n").seismic.flip_ends == FlipEnds::never);
-  CHECK_THAT(refusal(shaken + "  flip_ends: newer\n"),
-             Contains("seismic.flip_ends: is 'newer'; must be on_slide or never; did you mean 'never'?"));
+  const std::string shaken = small + "seismic:\n  duration: 1 s\n  transfer: apic\n";
+  CHECK(load(shaken).seismic.transfer == Transfer::apic);
+  CHECK(load(shaken).seismic.filter.time == 0);
+  CHECK(load(shaken).seismic.filter.strain == 0);
+  CHECK(load(shaken + "  filter: {strain: 0.01}\n").seismic.filter.strain == 0.01);
 }
 
-TEST_CASE("Interfaces are sharp and inertia is lumped unless the case says otherwise", "[io]")
+TEST_CASE("Interfaces are averaged and inertia is consistent unless the case says otherwise", "[io]")
 {
   const std::string shaken = small + "seismic:\n  duration: 1 s\n";
   const Case usual = load(shaken);
-  CHECK(usual.grid.interfaces == Interfaces::sharp);
-  CHECK(usual.seismic.inertia == Inertia::lumped);
-  CHECK(load(shaken + "  inertia: consistent\n").seismic.inertia == Inertia::consistent);
+  CHECK(usual.grid.interfaces == Interfaces::averaged);
+  CHECK(usual.seismic.inertia == Inertia::consistent);
+  CHECK(load(shaken + "  inertia: lumped\n").seismic.inertia == Inertia::lumped);
   CHECK(usual.seismic.rest_below == 0);
   CHECK(load(shaken + "  rest_below: 1 mm/s\n").seismic.rest_below == Approx(1e-3));
-  CHECK(load(replaced(shaken, "grid: {", "grid: {interfaces: averaged, ")).grid.interfaces ==
-        Interfaces::averaged);
+  CHECK(load(replaced(shaken, "grid: {", "grid: {interfaces: sharp, ")).grid.interfaces == Interfaces::sharp);
   CHECK_THAT(refusal(shaken + "  inertia: lumpd\n"),
              Contains("must be lumped or consistent; did you mean 'lumped'?"));
 }

@@ -121,7 +121,7 @@ TEST_CASE("Overrides win, are recorded and are checked under their own name", "[
 
   CHECK(refusal(small, {"grid.spacng=1 m"}) ==
         "65\n--set grid.spacng=1 m: grid.spacng: unknown key 'spacng'; allowed: spacing, "
-        "particles_per_cell, volume_average or interfaces; did you mean 'spacing'?\n");
+        "particles_per_cell, softening, volume_average or interfaces; did you mean 'spacing'?\n");
   CHECK(refusal(small, {"grid.spacing=2"}) ==
         "65\n--set grid.spacing=2: grid.spacing: needs a unit: write '2 m'; units: m, mm, cm or km\n");
   CHECK_THAT(refusal(small, {"grid.spacing"}),
@@ -170,7 +170,7 @@ TEST_CASE("What a profile holds is checked as the file's own keys, at the profil
         "65\n"
         "case.yaml:16:19: grid.spacing: needs a unit: write '0.5 m'; units: m, mm, cm or km\n"
         "case.yaml:17:5: grid.particle: unknown key 'particle'; allowed: spacing, particles_per_cell, "
-        "volume_average or interfaces; did "
+        "softening, volume_average or interfaces; did "
         "you mean "
         "'particles_per_cell'?\n"
         "case.yaml:18:5: domain.x: is a list of 2, counted from 0; it has no '2'\n"

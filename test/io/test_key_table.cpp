@@ -159,10 +159,13 @@ TEST_CASE("a key that has a better name is refused with it, in the file, in prof
     INFO(key.before);
     CHECK(keys.contains(std::string(key.now)));
     CHECK_FALSE(keys.contains(std::string(key.before)));
+    // Only a section that is there has keys.
+    const bool seismic = key.before.starts_with("seismic.");
+    const std::string text = small + (seismic ? "seismic: {duration: 1 s}\n" : "");
     const std::string before(key.before), said = before + ": is now called " + std::string(key.now) + "\n";
-    CHECK(refusal(small, {before + "=1"}) == "65\n--set " + before + "=1: " + said);
-    CHECK(refusal(small + "profiles: {other: {" + before + ": 1}}\n", {}, "other") ==
-          "65\ncase.yaml:14:20: " + said);
+    CHECK(refusal(text, {before + "=1"}) == "65\n--set " + before + "=1: " + said);
+    CHECK(refusal(text + "profiles: {other: {" + before + ": 1}}\n", {}, "other") ==
+          (seismic ? "65\ncase.yaml:15:20: " : "65\ncase.yaml:14:20: ") + said);
   }
   CHECK(refusal(small + "time_step: {safety: 0.5}\n") ==
         "65\ncase.yaml:14:13: time_step.safety: is now called time_step.courant_number\n");

@@ -129,10 +129,11 @@ TEST_CASE("Particles that have left their cells since the sort read what the def
           "[mpm]")
 {
   const Threads one(1);
-  const double blend = GENERATE(0.0, 0.4), h = 0.8, dt = 1e-3;
+  const bool flip = GENERATE(false, true);
+  const double h = 0.8, dt = 1e-3;
   // 21 x 11 particles: stretches of a block end within a vector of particles.
   Domain domain = make_domain({{elastic(1e-6), {-3 * h, h, 7 * h, 3.6667 * h}, h / 3}}, h, 0.4, 51);
-  domain.settings.flip_blend = blend;
+  domain.settings.flip = flip;
   random_velocities(domain, 1, 52);
   particles_to_grid(domain, dt);
   solve_grid(domain, dt);
@@ -174,8 +175,8 @@ TEST_CASE("Particles that have left their cells since the sort read what the def
           C[c][1] += 3 / (h * h) * w * y.offset[j] * now[c];
         }
       }
-    const double vx = v[0] + blend * (before.velocity_x[k] + change[0] - v[0]);
-    const double vy = v[1] + blend * (before.velocity_y[k] + change[1] - v[1]);
+    const double vx = flip ? before.velocity_x[k] + change[0] : v[0];
+    const double vy = flip ? before.velocity_y[k] + change[1] : v[1];
     velocity = std::max({velocity, std::fabs(p.velocity_x[k] - vx), std::fabs(p.velocity_y[k] - vy)});
     position = std::max(
         {position, std::fabs(p.x[k] - before.x[k] - dt * v[0]), std::fabs(p.y[k] - before.y[k] - dt * v[1])});

@@ -52,7 +52,8 @@ struct Rock
   static std::string text(const std::string& inertia)
   {
     std::string level = level_ground(0.5, 3, 8, 20, 20, 0);
-    return level.replace(level.find("duration: 1 s"), 13, "duration: 1 s\n  inertia: " + inertia);
+    return level.replace(level.find("duration: 1 s"), 13,
+                         "duration: 1 s\n  transfer: apic\n  inertia: " + inertia);
   }
   Case case_file;
   Model model;

@@ -91,18 +91,23 @@ TEST_CASE("a layer that is lost in part is warned of with where", "[stages]")
   CHECK_THAT(said_of(layered("{offset: rock, up: 9 m}", "[10 m, 20.2 m]")), !Contains("are drawn"));
 }
 
-TEST_CASE("a layer of fewer than four cells that can yield is told of", "[stages]")
+TEST_CASE("a layer of fewer than three cells that can yield is told of, of four with the affine transfer",
+          "[stages]")
 {
+  const std::string apic = "seismic: {duration: 1 s, transfer: apic}\n";
   CHECK_THAT(said_of(layered("{offset: rock, up: 2 m}")),
              Contains("regions[0] (weak): can yield") && Contains("2 cells thick"));
-  CHECK(said_of(layered("{offset: rock, up: 4 m}")).empty());
+  CHECK(said_of(layered("{offset: rock, up: 3 m}")).empty());
+  CHECK_THAT(said_of(layered("{offset: rock, up: 3 m}") + apic), Contains("3 cells thick"));
+  CHECK(said_of(layered("{offset: rock, up: 4 m}") + apic).empty());
   // Five cells high at 45 degrees are 3.54 across; the first of 80 columns counts as level: 3.55.
-  const std::string dipping = layered("{offset: rock, up: 5 m}");
+  const std::string level = layered("{offset: rock, up: 5 m}");
+  CHECK(said_of(level + apic).empty());
+  const std::string dipping = std::string(level)
+                                  .replace(level.find("[[0 m, 5 m]]"), 12, "[[0 m, 45 m], [40 m, 5 m]]")
+                                  .replace(level.find("[[0 m, 15 m]]") + 14, 13, "[[0 m, 60 m]]");
   CHECK(said_of(dipping).empty());
-  CHECK_THAT(said_of(std::string(dipping)
-                         .replace(dipping.find("[[0 m, 5 m]]"), 12, "[[0 m, 45 m], [40 m, 5 m]]")
-                         .replace(dipping.find("[[0 m, 15 m]]") + 14, 13, "[[0 m, 60 m]]")),
-             Contains("its layer is 3.6 cells thick"));
+  CHECK_THAT(said_of(dipping + apic), Contains("its layer is 3.6 cells thick"));
   CHECK(said_of(layered("{offset: rock, up: 2 m}", "[0 m, 40 m]", "weak")).empty()); // one layer of ten cells
 }
 

@@ -187,7 +187,6 @@ std::vector<Wrong> wrong_states()
       fewer("output/slide/peaks"),
       real("output", "gauge_time", 5),
       real("motion", "decided", 17),
-      real("motion", "slid", -2),
   };
 }
 } // namespace

@@ -62,7 +62,7 @@ struct Campaign : Bench
     REQUIRE(run_seismic("other", other).code == 0);
     fs::create_directory(*this / "empty");
   }
-  const Arguments other = with(brief, {"--set", "seismic.flip_blend=0.5"});
+  const Arguments other = with(brief, {"--set", "seismic.filter.time=2 s"});
 
   Ending with_fault(const Arguments& arguments, int at, const std::string& mode) const
   {

@@ -123,7 +123,6 @@ double reflected(const Packet& packet, const std::filesystem::path& folder, doub
   Domain& domain = *model.main;
   const Elastic& law = case_file.materials[0].elastic();
   const double dt = case_file.courant_number * spacing / law.pressure_speed();
-  domain.settings.flip_blend = 0.99; // so that the transfers take little of the packet on its way
   put(packet, domain, law, dt);
   const double way = 2 * packet.y / std::cos(packet.angle); // until its tail has met the base
   const int steps = static_cast<int>(way / speed_of(packet.kind, law) / dt);

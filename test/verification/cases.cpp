@@ -16,9 +16,8 @@ std::span<const LadderCase> ladder_cases()
       LadderCase{"free_vibration", run_free_vibration},     // V7
       LadderCase{"layer", run_site},                        // V8
       LadderCase{"layer_courant", run_layer_courant},       // V8
-      LadderCase{"layer_flip", run_layer_flip},             // V8
       LadderCase{"two_layers", run_site},                   // V9
-      LadderCase{"layer_consistent", run_layer_consistent}, // V8, V9
+      LadderCase{"layer_paper", run_layer_paper},           // V8, V9
       LadderCase{"layer_p", run_site},                      // V10
       LadderCase{"uniform_column", run_uniform_column},     // V10, V11
       LadderCase{"absorption", run_absorption},             // V12
@@ -26,7 +25,7 @@ std::span<const LadderCase> ladder_cases()
       LadderCase{"line_load", run_line_load},               // V13
       LadderCase{"level_site", run_level_site},             // V14
       LadderCase{"hill", run_hill},                         // V15
-      LadderCase{"hill_options", run_hill_options},         // V15
+      LadderCase{"hill_paper", run_hill_paper},             // V15
       LadderCase{"strip_footing", run_strip_footing},       // V16
       LadderCase{"laws", run_laws},                         // V17
       LadderCase{"shear_band", run_shear_band},             // V18

@@ -18,10 +18,8 @@ Findings run_uniform_column(const std::filesystem::path& folder, double spacing)
 Findings run_site(const std::filesystem::path& folder, double spacing);
 /// The layer at one spacing; the resolution is the Courant number.
 Findings run_layer_courant(const std::filesystem::path& folder, double courant);
-/// The layer at one spacing; the resolution is the share of FLIP.
-Findings run_layer_flip(const std::filesystem::path& folder, double share);
-/// The layer and the two layers with averaged interfaces and consistent inertia.
-Findings run_layer_consistent(const std::filesystem::path& folder, double spacing);
+/// The layer and the two layers with the paper's method.
+Findings run_layer_paper(const std::filesystem::path& folder, double spacing);
 /// Packets of P and S waves that meet the compliant base at an angle.
 Findings run_absorption(const std::filesystem::path& folder, double spacing);
 /// The same at angles near grazing.
@@ -30,8 +28,8 @@ Findings run_absorption_steep(const std::filesystem::path& folder, double spacin
 Findings run_line_load(const std::filesystem::path& folder, double spacing);
 /// An elastic slope against finite elements.
 Findings run_hill(const std::filesystem::path& folder, double spacing);
-/// The same with the options that carry waves better.
-Findings run_hill_options(const std::filesystem::path& folder, double spacing);
+/// The same with the paper's method.
+Findings run_hill_paper(const std::filesystem::path& folder, double spacing);
 /// Laws led to their limit states; the resolution is the strain of a step.
 Findings run_laws(const std::filesystem::path& folder, double step);
 /// A rigid strip pressed into clay.

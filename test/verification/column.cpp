@@ -33,7 +33,6 @@ Trace shake_column(const Case& case_file, std::shared_ptr<const IncomingWave> wa
   Model model = make_model(case_file);
   add_seismic_boundaries(model, case_file, wave, false);
   FreeFieldColumn& column = *model.left;
-  column.domain->settings.flip_blend = case_file.seismic.flip_blend;
   // A gauge on the ground surface; the outermost particle sits half a particle distance below it.
   column.domain->gauges.push_back({0.5 * case_file.grid.spacing, case_file.ground_height(0), 0, 0, 0, 0});
   const double dt = step_dividing(every, case_file.courant_number, *column.domain);

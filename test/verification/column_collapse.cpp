@@ -56,6 +56,7 @@ Deposit collapse(const std::filesystem::path& folder, double h, double aspect)
   const Elastic& sand = case_file.materials[0].elastic();
   const double gravity = case_file.static_stage.gravity, lateral = sand.poisson / (1 - sand.poisson);
   domain.settings.gravity_y = -gravity;
+  set_transfer(domain.settings, case_file.seismic);
   Particles& p = domain.particles;
   for (int k = 0; k < p.size(); ++k)
   {

@@ -49,6 +49,7 @@ Findings run_dam_break(const std::filesystem::path& folder, double h)
   const Elastic& water = case_file.materials[0].elastic();
   const double gravity = case_file.static_stage.gravity, wave = std::sqrt(gravity * depth);
   domain.settings.gravity_y = -gravity;
+  set_transfer(domain.settings, case_file.seismic);
   hold_at_rest(domain, water.density, gravity);
   const double dt = case_file.courant_number * h / water.pressure_speed(),
                end = duration * std::sqrt(depth / gravity);

@@ -30,8 +30,6 @@ std::map<std::string, History> shake_gauges(const Case& case_file, long samples)
     model.main->gauges.push_back({gauge.x, y, gauge.x, gauge.y, 0, 0, kink_at(case_file, gauge.x, y)});
   }
   add_seismic_boundaries(model, case_file, wave_of(case_file), false);
-  for (const auto& [part, domain] : model.domains())
-    domain->settings.flip_blend = case_file.seismic.flip_blend;
   const double dt = step_dividing(every, case_file.courant_number, *model.main);
   const long stride = std::lround(every / dt);
   std::map<std::string, History> histories;
@@ -111,22 +109,10 @@ Findings run_hill(const std::filesystem::path& folder, double spacing)
   return compare(case_at(folder, spacing), folder);
 }
 
-Findings run_hill_options(const std::filesystem::path& folder, double spacing)
+Findings run_hill_paper(const std::filesystem::path& folder, double spacing)
 {
-  const std::vector<std::string> flip{"seismic.flip_blend=0.9"},
-      averaged{"grid.interfaces=averaged", "seismic.inertia=consistent"};
-  std::vector<std::string> all = flip;
-  all.insert(all.end(), averaged.begin(), averaged.end());
-  Findings findings;
-  for (const auto& [name, options] :
-       {std::pair{"FLIP", flip}, std::pair{"averaged", averaged}, std::pair{"all", all}})
-  {
-    std::vector<std::string> settings = options;
-    settings.push_back("grid.spacing=" + number_text(spacing) + " m");
-    const Findings found = compare(load_case(folder / "../hill/case.yaml", settings), folder / "../hill");
-    for (const auto& [measure, error] : found.errors)
-      findings.errors[std::string(name) + ", " + measure] = error;
-  }
-  return findings;
+  std::vector<std::string> settings = papers_method();
+  settings.push_back("grid.spacing=" + number_text(spacing) + " m");
+  return compare(load_case(folder / "../hill/case.yaml", settings), folder / "../hill");
 }
 } // namespace mpm::verification

@@ -50,9 +50,11 @@ Slide slide(const InfiniteSlope& slope)
   sort_particles(domain);
   stress_by_weight(domain, top);
   domain.settings.gravity_y = -g * std::cos(angle);
-  domain.settings.flip_blend = slope.flip_blend;
+  domain.settings.flip = slope.flip;
+  domain.settings.filter = slope.filter;
+  domain.settings.average_flow = slope.flip;
 
-  const double dt = 0.5 * h / stiff.pressure_speed();
+  const double dt = slope.courant * h / stiff.pressure_speed();
   const auto steps = static_cast<int>(std::ceil(slope.duration / dt));
   const int highest = static_cast<int>(
       std::max_element(domain.particles.y.begin(), domain.particles.y.end()) - domain.particles.y.begin());
@@ -86,7 +88,7 @@ Slide slide_finite(const InfiniteSlope& slope)
   domain.boundaries.push_back(std::make_unique<MirroredWall>(Wall{Direction::x, last, -1, true}));
   sort_particles(domain);
   // Gravity grows while the ground is elastic and damped.
-  const double dt = 0.5 * h / stiff.pressure_speed(), ramp = 0.5, settled = 1;
+  const double dt = slope.courant * h / stiff.pressure_speed(), ramp = 0.5, settled = 1;
   domain.settings.plastic = false;
   domain.settings.local_damping = 0.7;
   for (int k = 0; k * dt < settled; ++k)
@@ -98,7 +100,9 @@ Slide slide_finite(const InfiniteSlope& slope)
   }
   domain.settings.plastic = true;
   domain.settings.local_damping = 0;
-  domain.settings.flip_blend = slope.flip_blend;
+  domain.settings.flip = slope.flip;
+  domain.settings.filter = slope.filter;
+  domain.settings.average_flow = slope.flip;
   domain.particles.reference_x = domain.particles.x;
   Slide result;
   for (int k = 0; k * dt < slope.duration; ++k)
@@ -144,6 +148,43 @@ Slide rigid_block(const InfiniteSlope& slope)
     if (result.trigger == 0 && d > triggered) result.trigger = t + dt;
   }
   result.slip = d;
+  return result;
+}
+Slide elastic_block(const InfiniteSlope& slope)
+{
+  // Displacements at the ends of pieces, the last of which is the surface, shear stresses between them.
+  constexpr int pieces_a_zone = 8;
+  const double thickness = slope.law.thickness, rock = slope.spacing * slope.rock_cells,
+               piece = thickness / pieces_a_zone;
+  const int below = static_cast<int>(std::lround(rock / piece)),
+            count = below + pieces_a_zone + static_cast<int>(std::lround(slope.block / piece));
+  const double density = slope.law.density, modulus = slope.law.shear_modulus(),
+               dt = 0.5 * piece / slope.law.shear_speed();
+  const auto depth = [&](int k) { return (count - k - 0.5) * piece; };
+  std::vector<double> stress(count + 1, 0.0), velocity(count + 1, 0.0);
+  for (int k = 0; k < count; ++k) stress[k] = density * g * std::sin(angle) * depth(k);
+  double flow = 0; // the zone's plastic shear strain, its mean
+  double way = 0;
+  Slide result;
+  for (int n = 0; n * dt < slope.duration; ++n)
+  {
+    const double drive = g * std::sin(angle) - shaking(slope, (n + 0.5) * dt);
+    for (int k = 1; k <= count; ++k)
+      velocity[k] += dt * (drive + (stress[k] - stress[k - 1]) / (density * piece * (k == count ? 0.5 : 1)));
+    const double friction = slope.law.mobilised(slope.law.friction(flow / std::sqrt(3.0)));
+    for (int k = 0; k < count; ++k)
+    {
+      stress[k] += dt * modulus * (velocity[k + 1] - velocity[k]) / piece;
+      const double most = friction * density * g * std::cos(angle) * depth(k),
+                   beyond = std::fabs(stress[k]) - most;
+      if (k < below || k >= below + pieces_a_zone || beyond <= 0) continue;
+      stress[k] -= std::copysign(beyond, stress[k]);
+      flow += beyond / modulus / pieces_a_zone;
+    }
+    way += dt * velocity[count];
+    if (result.trigger == 0 && way > triggered) result.trigger = (n + 1) * dt;
+  }
+  result.slip = way;
   return result;
 }
 } // namespace mpm::verification

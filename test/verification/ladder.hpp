@@ -15,6 +15,13 @@
 
 namespace mpm::verification
 {
+/// Settings of the paper's method, as of `--set`: affine transfer, sharp interfaces, lumped mass, and ground
+/// that softens particle by particle.
+inline std::vector<std::string> papers_method()
+{
+  return {"seismic.transfer=apic", "grid.interfaces=sharp", "seismic.inertia=lumped", "grid.softening=local"};
+}
+
 /// What the model found over what it should have found, for a plot.
 struct Curve
 {

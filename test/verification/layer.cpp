@@ -46,18 +46,16 @@ Findings run_site(const std::filesystem::path& folder, double spacing)
   return amplify(case_at(folder, spacing), folder);
 }
 
-Findings run_layer_consistent(const std::filesystem::path& folder, double spacing)
+Findings run_layer_paper(const std::filesystem::path& folder, double spacing)
 {
-  const auto error = [&](const std::string& site, std::vector<std::string> more)
+  const auto error = [&](const std::string& site)
   {
-    more.push_back("grid.spacing=" + number_text(spacing) + " m");
-    more.insert(more.end(), {"grid.interfaces=averaged", "seismic.inertia=consistent"});
-    return amplify(load_case(folder / site / "case.yaml", more), folder / site).errors.at("amplification");
+    std::vector<std::string> settings = papers_method();
+    settings.push_back("grid.spacing=" + number_text(spacing) + " m");
+    return amplify(load_case(folder / site / "case.yaml", settings), folder / site)
+        .errors.at("amplification");
   };
-  return {{{"one layer", error("../layer", {})},
-           {"two layers", error("../two_layers", {})},
-           {"with FLIP", error("../layer", {"seismic.flip_blend=0.9"})}},
-          {}};
+  return {{{"one layer", error("../layer")}, {"two layers", error("../two_layers")}}, {}};
 }
 
 Findings run_layer_courant(const std::filesystem::path& folder, double courant)
@@ -65,15 +63,5 @@ Findings run_layer_courant(const std::filesystem::path& folder, double courant)
   const Case case_file =
       load_case(folder / "../layer/case.yaml", {"time_step.courant_number=" + number_text(courant)});
   return amplify(case_file, folder / "../layer");
-}
-
-Findings run_layer_flip(const std::filesystem::path& folder, double share)
-{
-  const std::string flip = "seismic.flip_blend=" + number_text(share);
-  Findings usual = amplify(load_case(folder / "../layer/case.yaml", {flip}), folder / "../layer");
-  const Findings small = amplify(
-      load_case(folder / "../layer/case.yaml", {flip, "time_step.courant_number=0.1"}), folder / "../layer");
-  usual.errors["small steps"] = small.errors.at("amplification");
-  return usual;
 }
 } // namespace mpm::verification

@@ -11,6 +11,13 @@ enum class BandPosition
   on_nodes,     ///< along a row of nodes
 };
 
+/// By what a band softens.
+enum class Softening
+{
+  averaged, ///< its slip, over the width of the law (average_flow); the transfer is FLIP
+  local     ///< each particle's own strain; the transfer is APIC
+};
+
 /// What a softening band in a shear box dissipates, per m2 of band.
 struct BandEnergy
 {
@@ -20,9 +27,9 @@ struct BandEnergy
 
 /// A square box of the law, 24 cells or more wide, whose rim moves as two rigid halves that slide past each
 /// other by `slip` (m) along a line through the middle, inclined to the grid by `degrees`. The law's
-/// softening is by displacement. `average_volume`: with volume changes averaged over the cells.
+/// softening is by displacement.
 BandEnergy shear_band(VonMises law, double degrees, BandPosition position, double spacing, double slip,
-                      bool average_volume);
+                      Softening softening);
 
 /// (tau_p - tau_r) delta_r / 2 in J/m2, tau = q / sqrt(3) in plane strain: what the softening displacement
 /// stands for.

@@ -60,6 +60,7 @@ Findings run_sliding_block(const std::filesystem::path& folder, double spacing)
     column.advance(k * dt, dt);
   }
   domain.settings.local_damping = 0;
+  set_transfer(domain.settings, case_file.seismic);
   const double rest = displacement(column);
   Curve curve{"slip", "time (s)", "slip (m)", table.at("time"), {}, table.at("slip")};
   for (long n = 0; n < static_cast<long>(curve.x.size()) * stride; ++n)
