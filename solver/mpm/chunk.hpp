@@ -135,6 +135,14 @@ struct Prefetch
   }
 };
 
+/// Calls f(particle) for the particles of a block.
+template <class Function>
+void for_each_particle(const OccupiedBlock& block, const Function& f)
+{
+  for (const ParticleRange& range : block.ranges)
+    for (int p = range.begin; p < range.end; ++p) f(p);
+}
+
 /// Calls f(begin, count) for the chunks of a range, in the order in which they are summed.
 template <class Function>
 void for_each_chunk(const ParticleRange& range, const Function& f)

@@ -1,14 +1,12 @@
 #include "solver/mpm/chunk.hpp"
 #include "solver/mpm/flow.hpp"
 
-#include <memory>
-
 namespace mpm
 {
 namespace
 {
-constexpr double least_variance =
-    0.02; ///< h^2; keeps the fit of a node defined by one row of particles or one
+/// h^2; keeps the fit of a node defined that one row of particles reaches, or one particle.
+constexpr double least_variance = 0.02;
 
 std::array<std::vector<double>*, 4> stresses(Particles& p)
 {

@@ -23,13 +23,6 @@ struct NodeMotion
   NodeField mass, momentum_x, momentum_y;
 };
 
-template <class Function>
-void for_each_particle(const OccupiedBlock& occupied, const Function& f)
-{
-  for (const ParticleRange& range : occupied.ranges)
-    for (int p = range.begin; p < range.end; ++p) f(p);
-}
-
 /// m_i = sum w m and P_i = sum w m (v + C (x_i - x)) of a block (eq. 2).
 void add_block(const Domain& domain, const OccupiedBlock& occupied, const Motion& motion, NodeMotion& nodes)
 {
