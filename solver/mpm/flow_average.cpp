@@ -62,6 +62,11 @@ void average_flow(Domain& domain, const Flow& flow)
   const Grid& grid = domain.grid;
   const Particles& p = domain.particles;
   const double before = dissipated_energy(domain);
+  const auto cell_of = [&grid](double x, double y)
+  {
+    return std::pair{static_cast<int>(std::floor((x - grid.origin_x) * grid.inverse_spacing())),
+                     static_cast<int>(std::floor((y - grid.origin_y) * grid.inverse_spacing()))};
+  };
   for (std::size_t m = 0; m < domain.materials.size(); ++m)
   {
     const double length = domain.materials[m].averaging_length();
@@ -75,29 +80,31 @@ void average_flow(Domain& domain, const Flow& flow)
         {
           const OccupiedBlock& occupied = domain.blocks.occupied[block];
           NodeFinder find(grid);
+          const auto tile_of = [&](int k)
+          {
+            const auto [i, j] = cell_of(p.x[k], p.y[k]);
+            return tile_index(i - block_cells * occupied.block.x, j - block_cells * occupied.block.y);
+          };
           // Of the block's cell by cell; particles may have drifted out of it by one.
           Tile mean;
           mean.value.fill(-1);
-          ground.for_each(
-              occupied,
-              [&](int k)
-              {
-                const int i = static_cast<int>(std::floor((p.x[k] - grid.origin_x) * grid.inverse_spacing())),
-                          j = static_cast<int>(std::floor((p.y[k] - grid.origin_y) * grid.inverse_spacing()));
-                double& of = mean.value[tile_index(i - block_cells * occupied.block.x,
-                                                   j - block_cells * occupied.block.y)];
-                if (of >= 0) return;
-                double volume = 0, sum = 0;
-                find.move_to(i, j);
-                for (const Cell& cell : cells)
-                {
-                  const int node = find(grid.wrapped ? 0 : i + cell.x, j + cell.y);
-                  if (node < 0) continue;
-                  volume += cell.share * sums.volume[node];
-                  sum += cell.share * sums.flow[node];
-                }
-                of = sum / volume;
-              });
+          ground.for_each(occupied,
+                          [&](int k)
+                          {
+                            double& of = mean.value[tile_of(k)];
+                            if (of >= 0) return;
+                            const auto [i, j] = cell_of(p.x[k], p.y[k]);
+                            double volume = 0, sum = 0;
+                            find.move_to(i, j);
+                            for (const Cell& cell : cells)
+                            {
+                              const int node = find(grid.wrapped ? 0 : i + cell.x, j + cell.y);
+                              if (node < 0) continue;
+                              volume += cell.share * sums.volume[node];
+                              sum += cell.share * sums.flow[node];
+                            }
+                            of = sum / volume;
+                          });
           for (const ParticleRange& range : occupied.ranges)
           {
             if (!ground.holds(range.material)) continue;
@@ -105,10 +112,7 @@ void average_flow(Domain& domain, const Flow& flow)
             const int first = domain.material_begin[range.material];
             for (int k = range.begin; k < range.end; ++k)
             {
-              const int i = static_cast<int>(std::floor((p.x[k] - grid.origin_x) * grid.inverse_spacing())),
-                        j = static_cast<int>(std::floor((p.y[k] - grid.origin_y) * grid.inverse_spacing()));
-              const double of = mean.value[tile_index(i - block_cells * occupied.block.x,
-                                                      j - block_cells * occupied.block.y)];
+              const double of = mean.value[tile_of(k)];
               if (of >= 0) strain[k - first] = p.noted_flow[k] + of;
             }
           }
