@@ -87,7 +87,7 @@ def draw_section(axis, folder, norm):
 
 def draw_histories(axes, folders, ends):
     """Moved area (m2) and displacement (m) of its centre of mass, both ends (and what they are called)."""
-    for colour, (end, folder) in zip(("C0", "C3"), folders.items()):
+    for colour, (end, folder) in zip(("C0", "C1"), folders.items()):
         with open_history(folder) as file:
             slide = group_of(file, "slide")
             time, area = array(slide, "time"), array(slide, "moved_area")

@@ -11,10 +11,17 @@ import matplotlib
 
 matplotlib.use("Agg")
 matplotlib.rcParams["text.parse_math"] = False  # names of cases, gauges and materials are no formulas, whatever they hold
+matplotlib.rcParams["svg.hashsalt"] = "seismpm"  # the same picture of the same run, to the last byte
 import matplotlib.pyplot as plt
 import numpy as np
+from cycler import cycler
 
 WIDTH = 10.0  # inches, of every picture
+FORMATS = ("png", "svg", "pdf")
+# Okabe and Ito (2008), "Color universal design": lines that the colour-blind tell apart. More lines than these are dashed.
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
+AREAS = (*COLOURS, "#F0E442")  # yellow is for areas: a line of it is lost on white
+matplotlib.rcParams["axes.prop_cycle"] = cycler(linestyle=("-", "--", ":")) * cycler(color=COLOURS)
 
 
 class Missing(Exception):
@@ -101,9 +108,20 @@ def heading_of(folder, summary):
     return ", ".join(part for part in (name, summary.get("motion_title"), state_of(summary)) if part)
 
 
-def save(figure, path, heading):
-    """Writes a picture and says so."""
-    figure.suptitle(heading, fontsize=11)
-    figure.savefig(path, dpi=150, bbox_inches="tight")
+def write(figure, path, **named):
+    """Writes a picture in the format of its name, without the date, and says so."""
+    dateless = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}}
+    figure.savefig(path, dpi=150, metadata=dateless.get(Path(path).suffix), **named)
     plt.close(figure)
     print(path)
+
+
+def titled(figure, heading):
+    """The figure, with its heading."""
+    figure.suptitle(heading, fontsize=11)
+    return figure
+
+
+def save(figure, path, heading):
+    """Writes a picture with its heading, cut to what is drawn."""
+    write(titled(figure, heading), path, bbox_inches="tight")

@@ -3,7 +3,7 @@ import h5py
 import matplotlib.pyplot as plt
 import numpy as np
 
-from plot_common import WIDTH, Missing, array, group_of, open_history, save, text
+from plot_common import AREAS, WIDTH, Missing, array, group_of, open_history, text, titled
 
 BECOME = ("kinetic", "elastic", "plastic", "radiated_base", "radiated_sides", "departed", "damping",
           "transfer")
@@ -41,26 +41,26 @@ def stacked(axis, time, terms, colours):
     axis.axhline(0, color="k", lw=0.6)
 
 
-def energy(folder, out, heading):
-    """energy.png: what came in as a line over what became of it as areas, and the residual."""
+def energy(folder, heading):
+    """What came in as a line over what became of it as areas, and the residual."""
     with open_history(folder) as file:
         time, terms, unit = read_energy_balance(file)
     brought = sources(terms)
     become = {name: terms[name] for name in BECOME if name in terms and np.any(terms[name])}
     figure, (top, middle, bottom) = plt.subplots(3, 1, figsize=(WIDTH, 9.5), sharex=True, height_ratios=(2.4, 1.4, 0.9),
                                                  layout="constrained")
-    stacked(top, time, become, plt.get_cmap("tab10").colors)
+    stacked(top, time, become, AREAS)
     top.plot(time, sum(brought.values()), "k-", lw=1.2, label="all that came in")
     top.set_ylabel(f"what became of it ({unit})")
     for name, values in brought.items():
         middle.plot(time, values, lw=1.0, label=name.replace("_", " "))
     middle.set_ylabel(f"what came in ({unit})")
     largest = max(np.abs(values).max() for name, values in terms.items() if name != "residual")
-    bottom.plot(time, 100 * terms["residual"] / (largest or 1.0), "C3", lw=1.0)
+    bottom.plot(time, 100 * terms["residual"] / (largest or 1.0), "C1", lw=1.0)
     bottom.set_ylabel("residual\n(% of the largest term)")
     bottom.set_xlabel("time (s)")
     for axis in (top, middle):
         axis.legend(fontsize=8, loc="upper left")
     for axis in (top, middle, bottom):
         axis.grid(alpha=0.3)
-    save(figure, out / "energy.png", heading)
+    return titled(figure, heading)

@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.ticker import FuncFormatter, NullFormatter
 
 import spectrum
-from plot_common import WIDTH, Missing, array, group_of, label, open_history, save, text
+from plot_common import WIDTH, Missing, array, group_of, label, open_history, text, titled
 
 DIRECTIONS = ("horizontal (x)", "vertical (y)")
 
@@ -58,8 +58,8 @@ def surface_motions(file):
     return [motion for motion in found if len(motion[1]) >= 4 and np.isfinite(motion[2]).all()]
 
 
-def histories(folder, out, heading):
-    """histories.png: displacement and velocity of the gauges, x on the left and y on the right."""
+def histories(folder, heading):
+    """Displacement and velocity of the gauges, x on the left and y on the right."""
     with open_history(folder) as file:
         time, names, fields = read_gauges(file)
     if not fields or not names or not len(time):
@@ -75,7 +75,7 @@ def histories(folder, out, heading):
     for axis in axes[-1]:
         axis.set_xlabel("time (s)")
     axes[0, 0].legend(fontsize=8, ncols=1 + len(names) // 8)
-    save(figure, out / "histories.png", heading)
+    return titled(figure, heading)
 
 
 def measures(acceleration, velocity, dt):
@@ -129,8 +129,8 @@ def draw_spectra(axis, component, outcrop, others):
     axis.grid(alpha=0.3, which="both")
 
 
-def motion(folder, out, heading):
-    """motion.png: the motion as applied; beside it its response spectrum with those of gauges and free field."""
+def motion(folder, heading):
+    """The motion as applied; beside it its response spectrum with those of gauges and free field."""
     with open_history(folder) as file:
         time, velocity, acceleration = read_motion(file)
         record, others = factor_of_record(file), surface_motions(file)
@@ -143,11 +143,11 @@ def motion(folder, out, heading):
         draw_spectra(axis, component, (2.0 * acceleration, time[1] - time[0]), others)
     axes[-1].set_xlabel("period (s)")
     axes[0].legend(fontsize=8)
-    save(figure, out / "motion.png", heading)
+    return titled(figure, heading)
 
 
-def slide(folder, out, heading):
-    """slide.png: every series of /slide over time."""
+def slide(folder, heading):
+    """Every series of /slide over time."""
     with open_history(folder) as file:
         group = group_of(file, "slide")
         time = array(group, "time")
@@ -164,4 +164,4 @@ def slide(folder, out, heading):
         if values.ndim == 2:
             axis.legend(fontsize=8)
     axes[-1, 0].set_xlabel("time (s)")
-    save(figure, out / "slide.png", heading)
+    return titled(figure, heading)

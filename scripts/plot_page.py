@@ -11,7 +11,7 @@ from matplotlib.colors import Normalize
 import newmark
 import plot_sections
 import spectrum
-from plot_common import Missing, array, frame_times, group_of, label, open_history, read_summary, text
+from plot_common import Missing, array, frame_times, group_of, label, open_history, read_summary, text, titled
 from plot_histories import read_gauges, read_motion, read_outline
 
 PAGE = (8.27, 11.69)  # inches, A4
@@ -41,7 +41,7 @@ def draw_section(figure, axis, folder, outline):
 def mark_trigger(axis, trigger):
     """Vertical line at the trigger time (s), where there is one."""
     if trigger is not None:
-        axis.axvline(trigger, color="C3", lw=0.8, ls=":")
+        axis.axvline(trigger, color="k", lw=0.8, ls=":")
 
 
 def draw_gauges(axis, file, trigger):
@@ -71,7 +71,7 @@ def draw_speed(axis, file, trigger):
     """Speed of the slide (m/s): 99th percentile and centre of mass."""
     slide = group_of(file, "slide")
     time = array(slide, "time")
-    axis.plot(time, array(slide, "peak_velocity"), "C3", lw=1.0, label="99th percentile")
+    axis.plot(time, array(slide, "peak_velocity"), "C1", lw=1.0, label="99th percentile")
     velocity = array(slide, "centre_of_mass_velocity")
     axis.plot(time, np.linalg.norm(velocity, axis=1), "C2", lw=1.0, label="centre of mass")
     axis.set_title("speed of the moved ground (m/s)")
@@ -173,8 +173,8 @@ def went_on(file, summary):
     return f"; measures at t = {summary['time']:.1f} s, before it went on" if end > summary["time"] + 0.2 else ""
 
 
-def page(folder, out, heading):
-    """summary.png: one page on the run."""
+def page(folder, heading):
+    """One page on the run."""
     summary = read_summary(folder)
     if "slide" not in summary:
         raise Missing("summary.json has no slide")
@@ -194,8 +194,4 @@ def page(folder, out, heading):
         if block:
             newmark.draw(rows[3].subplots(), folder, block)
         draw_words(rows[-1].subplots(), summary, block)
-    figure.suptitle(heading, fontsize=11)
-    path = out / "summary.png"
-    figure.savefig(path, dpi=150)
-    plt.close(figure)
-    print(path)
+    return titled(figure, heading)

@@ -1,4 +1,4 @@
-"""Draws the results of a run: scripts/plot-run RUN_FOLDER [--times t1,t2,...] [--out DIR].
+"""Draws the results of a run: scripts/plot-run RUN_FOLDER [--times t1,t2,...] [--format svg] [--out DIR].
 
 Whatever the folder holds is drawn, whatever it lacks is said. Exit 66 when there is nothing to draw.
 SI units, x right, y up, tension positive.
@@ -25,6 +25,8 @@ def parse_arguments():
     parser.add_argument("folder", type=Path, metavar="RUN_FOLDER", help="output folder of mpm-static or mpm-seismic")
     parser.add_argument("--times", type=time_list, metavar="t1,t2,...",
                         help="times (s) of the sections, the nearest frames are drawn; default six evenly spread")
+    parser.add_argument("--format", choices=plot_common.FORMATS, default="png",
+                        help="svg and pdf draw lines as lines; default png")
     parser.add_argument("--out", type=Path, metavar="DIR", help="default RUN_FOLDER/pictures")
     return parser.parse_args()
 
@@ -39,17 +41,19 @@ def main():
     out.mkdir(parents=True, exist_ok=True)
     summary = plot_common.read_summary(folder)
     if plot_common.stage_of(folder, summary) == "static":
-        pictures = [("static_stress.png", plot_sections.static_stress, ())]
+        pictures = [("static_stress", plot_sections.static_stress, ())]
     else:
-        pictures = [("plastic_strain.png", plot_sections.plastic_strain, (arguments.times,)),
-                    ("displacement.png", plot_sections.displacement, (arguments.times,)),
-                    ("histories.png", plot_histories.histories, ()), ("motion.png", plot_histories.motion, ()),
-                    ("slide.png", plot_histories.slide, ()), ("energy.png", plot_energy.energy, ()),
-                    ("summary.png", plot_page.page, ())]
+        pictures = [("plastic_strain", plot_sections.plastic_strain, (arguments.times,)),
+                    ("displacement", plot_sections.displacement, (arguments.times,)),
+                    ("histories", plot_histories.histories, ()), ("motion", plot_histories.motion, ()),
+                    ("slide", plot_histories.slide, ()), ("energy", plot_energy.energy, ()),
+                    ("summary", plot_page.page, ())]
     drawn = 0
     for name, draw, extra in pictures:
+        name += f".{arguments.format}"
         try:
-            draw(folder, out, plot_common.heading_of(folder, summary), *extra)
+            figure = draw(folder, plot_common.heading_of(folder, summary), *extra)
+            plot_common.write(figure, out / name, bbox_inches=None if draw is plot_page.page else "tight")
             drawn += 1
         except (plot_common.Missing, OSError, ValueError) as reason:
             print(f"plot-run: {name} not drawn: {reason}", file=sys.stderr)

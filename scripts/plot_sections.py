@@ -7,7 +7,7 @@ from matplotlib.colors import Normalize
 from scipy.ndimage import distance_transform_edt
 from scipy.spatial import cKDTree
 
-from plot_common import WIDTH, Missing, array, frame_times, save
+from plot_common import WIDTH, Missing, array, frame_times, titled
 
 PIXELS = 1400  # across a section
 MOST_STRAIN = 0.3  # top of the colour scale of plastic strain
@@ -133,8 +133,8 @@ def top_of(fields, percentile):
     return max(1e-6, float(np.percentile(positive, percentile))) if positive.size else 1e-6
 
 
-def plastic_strain(folder, out, heading, times):
-    """plastic_strain.png: plastic strain at the chosen times (s)."""
+def plastic_strain(folder, heading, times):
+    """Plastic strain at the chosen times (s)."""
     frames = choose(frame_times(folder), times)
     sections = [read_particles(path, "plastic_strain") for _, path in frames]
     strains = [p["plastic_strain"] for p in sections]
@@ -145,11 +145,11 @@ def plastic_strain(folder, out, heading, times):
               for (time, _), strain, grey in zip(frames, strains, without_strain(sections))]
     figure, axes = stack(sections, panels)
     colour_bar(figure, axes, panels, "plastic strain (grey: material that has none)", aspect=20 * len(panels))
-    save(figure, out / "plastic_strain.png", heading)
+    return titled(figure, heading)
 
 
-def displacement(folder, out, heading, times):
-    """displacement.png: magnitude of the displacement (m) at the chosen times (s)."""
+def displacement(folder, heading, times):
+    """Magnitude of the displacement (m) at the chosen times (s)."""
     frames = choose(frame_times(folder), times)
     sections = [read_particles(path, "displacement") for _, path in frames]
     lengths = [np.linalg.norm(p["displacement"][:, :2], axis=1) for p in sections]
@@ -158,11 +158,11 @@ def displacement(folder, out, heading, times):
               for (time, _), length in zip(frames, lengths)]
     figure, axes = stack(sections, panels)
     colour_bar(figure, axes, panels, "displacement (m)", aspect=20 * len(panels))
-    save(figure, out / "displacement.png", heading)
+    return titled(figure, heading)
 
 
-def static_stress(folder, out, heading):
-    """static_stress.png: stresses (kPa, tension positive) at the end of the static stage."""
+def static_stress(folder, heading):
+    """Stresses (kPa, tension positive) at the end of the static stage."""
     path = folder / "final.h5"
     if not path.exists():
         raise Missing("no final.h5: the static stage has not ended well yet")
@@ -179,4 +179,4 @@ def static_stress(folder, out, heading):
     figure, axes = stack([particles] * len(panels), panels)
     for axis, panel in zip(axes, panels):
         colour_bar(figure, axis, [panel], "kPa", aspect=15)
-    save(figure, out / "static_stress.png", heading + ", static state (tension positive)")
+    return titled(figure, heading + ", static state (tension positive)")

@@ -14,6 +14,7 @@ import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts"))
 import options
 import plot_common
+import plot_energy
 import plot_run
 from checking import report
 
@@ -70,8 +71,8 @@ def summary(end, code):
                       "outline_rise": change, "outline_fall": change}}
 
 
-def draw(folder):
-    """Exit code of plot-run, the pictures drawn, what it said, the headings and all names in legends."""
+def draw(folder, *options):
+    """Exit code of plot-run with the options, the pictures drawn, what it said, the headings and all names in legends."""
     seen = {"headings": [], "legends": []}
     save = plot_common.plt.Figure.savefig
 
@@ -83,7 +84,7 @@ def draw(folder):
                 seen["legends"] += [words.get_text() for words in axis.get_legend().get_texts()]
 
     said = io.StringIO()
-    sys.argv = ["plot-run", str(folder)]
+    sys.argv = ["plot-run", str(folder), *options]
     plot_common.plt.Figure.savefig = savefig
     try:
         with contextlib.redirect_stderr(said), contextlib.redirect_stdout(io.StringIO()), warnings.catch_warnings():
@@ -150,6 +151,20 @@ def static_end():
     return wrong(code == 0, drawn == {"static_stress.png"})
 
 
+def vectors():
+    """With --format svg pictures are vectors, and the same to the last byte when they are drawn again."""
+    with tempfile.TemporaryDirectory() as folder:
+        folder = Path(folder)
+        write_history(folder, 4.0)
+        (folder / "identity.json").write_text('{"stage": "seismic"}')
+        code, drawn, _, _ = draw(folder, "--format", "svg")
+        first = (folder / "pictures" / "energy.svg").read_bytes()
+        plot_common.save(plot_energy.energy(folder, folder.name), folder / "again.svg", f"{folder.name}, not ended")
+        again = (folder / "again.svg").read_bytes()
+    return wrong(code == 0, drawn == {"histories.svg", "motion.svg", "slide.svg", "energy.svg"}, b"<svg" in first[:1000],
+                 first == again)
+
+
 def taken_up():
     """Measures of a run that was interrupted and went on are told to be older than its histories."""
     with tempfile.TemporaryDirectory() as folder:
@@ -178,7 +193,7 @@ def misspelt():
 
 def checks():
     """Name and (error, tolerance) of every check."""
-    for check in (odd_names, live, static_without_end, static_end, taken_up, misspelt):
+    for check in (odd_names, live, static_without_end, static_end, vectors, taken_up, misspelt):
         yield check.__doc__, check()
 
 
