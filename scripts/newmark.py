@@ -10,7 +10,6 @@ Results go to RUN_FOLDER/newmark.json, where plot-run finds them, and to picture
 """
 import hashlib
 import json
-import re
 import sys
 from dataclasses import asdict
 from pathlib import Path
@@ -26,9 +25,8 @@ import slip_circle
 from options import Parser
 from plot_common import Missing, array, group_of, open_history
 from plot_histories import read_motion, read_outline
+from settings import quantity, settings_of
 
-UNITS = {"Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9, "kg/m3": 1.0, "g/cm3": 1e3, "t/m3": 1e3, "m": 1.0, "cm": 1e-2,
-         "mm": 1e-3, "km": 1e3, "m/s2": 1.0, "cm/s2": 1e-2, "g": rigid_block.STANDARD_GRAVITY, "": 1.0}
 USUAL_GRAVITY = "9.81 m/s2"  # of a case that says none
 DEPARTED = 0.1  # m, beyond which a run counts ground as out of place
 
@@ -70,22 +68,6 @@ def run_of(folder):
     with open_history(folder) as file:
         until = float(read_motion(file)[0][-1])
     return {"identity": hashlib.sha256((folder / "identity.json").read_bytes()).hexdigest(), "until": until}
-
-
-def settings_of(folder):
-    """The run's settings by key path."""
-    return json.loads((folder / "identity.json").read_text())
-
-
-def quantity(settings, key):
-    """A setting in SI, None where it is not given."""
-    if key not in settings:
-        return None
-    parts = re.fullmatch(r"([-+]?[0-9.]+(?:[eE][-+]?[0-9]+)?)\s*(.*)", settings[key].strip())
-    unit = parts and parts[2].replace("^", "")
-    if not parts or unit not in UNITS:
-        raise Missing(f"{key} in identity.json is '{settings[key]}', which is no number with a unit")
-    return float(parts[1]) * UNITS[unit]
 
 
 def gravity_of(settings):
@@ -235,17 +217,22 @@ def estimate(folder):
     return analyse(folder, block, sense, words, circle)
 
 
-def stored_or_estimated(folder):
-    """newmark.json of the folder, or the estimate where there is none of this run."""
+def stored(folder):
+    """newmark.json of the folder, None where there is none of this run."""
     path = folder / "newmark.json"
     if not path.exists():
-        return estimate(folder)
-    stored = json.loads(path.read_text())
-    if stored.get("run") == run_of(folder):
-        return stored
+        return None
+    result = json.loads(path.read_text())
+    if result.get("run") == run_of(folder):
+        return result
     print(f"newmark: {path} is of another run, or of this one before it went on; it is left out: run scripts/newmark again",
           file=sys.stderr)
-    return estimate(folder)
+    return None
+
+
+def stored_or_estimated(folder):
+    """newmark.json of the folder, or the estimate where there is none of this run."""
+    return stored(folder) or estimate(folder)
 
 
 def lines_of(result):

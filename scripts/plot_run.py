@@ -8,6 +8,7 @@ from pathlib import Path
 
 import plot_common
 import plot_energy
+import plot_fields
 import plot_histories
 import plot_page
 import plot_sections
@@ -43,8 +44,8 @@ def main():
     if plot_common.stage_of(folder, summary) == "static":
         pictures = [("static_stress", plot_sections.static_stress, ())]
     else:
-        pictures = [("plastic_strain", plot_sections.plastic_strain, (arguments.times,)),
-                    ("displacement", plot_sections.displacement, (arguments.times,)),
+        pictures = [("plastic_strain", plot_fields.section, (arguments.times, "plastic_strain")),
+                    ("displacement", plot_fields.section, (arguments.times, "displacement")),
                     ("histories", plot_histories.histories, ()), ("motion", plot_histories.motion, ()),
                     ("slide", plot_histories.slide, ()), ("energy", plot_energy.energy, ()),
                     ("summary", plot_page.page, ())]

@@ -1,13 +1,13 @@
-"""Pictures of the displaced section: plastic strain and displacement at chosen times, stresses of a static state."""
+"""Pictures of sections: particles on pixels, panels at one scale; stresses of a static state."""
 import h5py
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
-from scipy.ndimage import distance_transform_edt
+from scipy.ndimage import distance_transform_edt, label, maximum
 from scipy.spatial import cKDTree
 
-from plot_common import WIDTH, Missing, array, frame_times, titled
+from plot_common import WIDTH, Missing, array, text, titled
 
 PIXELS = 1400  # across a section
 MOST_STRAIN = 0.3  # top of the colour scale of plastic strain
@@ -26,7 +26,20 @@ def read_particles(path, *fields):
             particles["size"] = np.minimum(size, MOST_LOOSE * np.median(size))
         if "particles/material" in file:
             particles["material"] = file["particles/material"][...]
+            if "material_names" in file:
+                particles["material_names"] = [text(name) for name in file["material_names"][...]]
+        elif isinstance(file.get("materials"), h5py.Group):
+            add_materials(particles, file["materials"])
     return particles
+
+
+def add_materials(particles, group):
+    """Gives particles of a state, whose materials lie one after the other, their material."""
+    parts = [part.attrs for part in group.values()]
+    names = particles["material_names"] = sorted({text(part["material"]) for part in parts})
+    particles["material"] = np.full(len(particles["position"]), -1)
+    for part in parts:
+        particles["material"][int(part["begin"]):int(part["end"])] = names.index(text(part["material"]))
 
 
 def choose(frames, wanted, count=6):
@@ -57,24 +70,33 @@ def common_extent(sections):
     return left, right, low, high
 
 
-def add_pixels(particles, extent):
-    """Stores for every pixel its nearest particle, -1 where there is no ground.
+def add_pixels(particles, extent, across=PIXELS):
+    """Stores for every pixel, so many of them across, its nearest particle, -1 where there is no ground.
 
     Ground reaches from a particle as far as its size. Where slip has stretched a band, its particles lie farther apart
-    along it; gaps of up to two particles, about a cell, are closed.
+    along it; gaps of up to two particles, about a cell, are closed, and holes of up to four with ground all around.
     """
     left, right, low, high = extent
-    pixel = (right - left) / PIXELS
+    pixel = (right - left) / across
     rows = max(1, round((high - low) / pixel))
-    x = left + (np.arange(PIXELS) + 0.5) * pixel
+    x = left + (np.arange(across) + 0.5) * pixel
     y = low + (np.arange(rows) + 0.5) * (high - low) / rows
     size = np.append(particles["size"], 0.0)  # the last is that of no particle within reach
     distance, nearest = cKDTree(particles["position"]).query(np.stack(np.meshgrid(x, y), axis=-1), workers=-1,
                                                              distance_upper_bound=2.0 * size.max())
     reach = np.median(size[:-1]) / pixel
     widened = distance_transform_edt(distance > size[nearest]) <= reach
-    ground = distance_transform_edt(widened) > reach
+    ground = without_holes(distance_transform_edt(widened) > reach, 2.0 * reach)
     particles["pixels"] = np.where(ground & (nearest < len(size) - 1), nearest, -1)
+
+
+def without_holes(ground, reach):
+    """The ground with its holes filled, unless they touch the border or have a pixel that is farther than `reach` from ground."""
+    holes, count = label(~ground)
+    deepest = maximum(distance_transform_edt(~ground), holes, np.arange(count + 1))
+    filled = deepest <= reach
+    filled[np.unique(np.concatenate([holes[0], holes[-1], holes[:, 0], holes[:, -1]]))] = False
+    return ground | filled[holes]
 
 
 def image(particles, values):
@@ -94,12 +116,12 @@ def draw_panel(axis, particles, panel, extent):
     axis.set_ylabel("y (m)")
 
 
-def stack(sections, panels):
+def stack(sections, panels, width=WIDTH):
     """Figure of stacked sections at one scale, one panel each; returns it and its axes."""
     add_sizes(sections)
     left, right, low, high = extent = common_extent(sections)
-    height = len(panels) * (0.83 * WIDTH * (high - low) / (right - left) + 0.4) + 0.7
-    figure, axes = plt.subplots(len(panels), 1, figsize=(WIDTH, height), sharex=True, squeeze=False,
+    height = len(panels) * (0.83 * width * (high - low) / (right - left) + 0.4) + 0.7
+    figure, axes = plt.subplots(len(panels), 1, figsize=(width, height), sharex=True, squeeze=False,
                                 layout="constrained")
     for axis, particles, panel in zip(axes[:, 0], sections, panels):
         if "pixels" not in particles:
@@ -131,34 +153,6 @@ def top_of(fields, percentile):
     """Upper end of a colour scale: the percentile of the positive values, 1e-6 where there are none."""
     positive = np.concatenate([values[values > 0.0] for values in fields])
     return max(1e-6, float(np.percentile(positive, percentile))) if positive.size else 1e-6
-
-
-def plastic_strain(folder, heading, times):
-    """Plastic strain at the chosen times (s)."""
-    frames = choose(frame_times(folder), times)
-    sections = [read_particles(path, "plastic_strain") for _, path in frames]
-    strains = [p["plastic_strain"] for p in sections]
-    if not any(np.nanmax(strain, initial=0.0) > 0.0 for strain in strains):
-        raise Missing("no plastic strain in the chosen frames")
-    norm = Normalize(0.0, min(MOST_STRAIN, top_of(strains, 99.0)))
-    panels = [{"title": f"t = {time:.2f} s", "values": strain, "colours": "inferno_r", "norm": norm, "grey": grey}
-              for (time, _), strain, grey in zip(frames, strains, without_strain(sections))]
-    figure, axes = stack(sections, panels)
-    colour_bar(figure, axes, panels, "plastic strain (grey: material that has none)", aspect=20 * len(panels))
-    return titled(figure, heading)
-
-
-def displacement(folder, heading, times):
-    """Magnitude of the displacement (m) at the chosen times (s)."""
-    frames = choose(frame_times(folder), times)
-    sections = [read_particles(path, "displacement") for _, path in frames]
-    lengths = [np.linalg.norm(p["displacement"][:, :2], axis=1) for p in sections]
-    norm = Normalize(0.0, top_of(lengths, 99.5))
-    panels = [{"title": f"t = {time:.2f} s", "values": length, "colours": "viridis_r", "norm": norm}
-              for (time, _), length in zip(frames, lengths)]
-    figure, axes = stack(sections, panels)
-    colour_bar(figure, axes, panels, "displacement (m)", aspect=20 * len(panels))
-    return titled(figure, heading)
 
 
 def static_stress(folder, heading):
