@@ -60,7 +60,8 @@ def drawn(frames, name, settings):
         particles = plot_fields.read(path, name, settings)
         plot_sections.add_sizes([particles])
         plot_sections.add_pixels(particles, extent, PIXELS)
-        axis.clear()
+        for image in list(axis.images):  # those of the frame before
+            image.remove()
         panel = plot_fields.panels_of([*sample, particles], name, [f"t = {time:.2f} s"] * (len(sample) + 1), norm)[-1]
         plot_sections.draw_panel(axis, particles, panel, extent)
         axis.set_xlabel("x (m)")

@@ -237,11 +237,11 @@ def stored_or_estimated(folder):
 
 def lines_of(result):
     """The results in words."""
-    time = lambda t: "never" if t is None else f"{t:.2f} s"
     return [result["block"],
             f"yield acceleration {result['yield_acceleration']:.3f} g, at least {result['least_yield_acceleration']:.3f} g "
             "as it slides" + (": there it goes by itself" if result["least_yield_acceleration"] < 0 else ""),
-            f"slips first at {time(result['first_slip'])}, passes {DEPARTED} m at {time(result['trigger_time'])}",
+            "never slips" if result["first_slip"] is None else f"slips first at {result['first_slip']:.2f} s, " + (
+                f"never passes {DEPARTED} m" if result["trigger_time"] is None else f"passes {DEPARTED} m at {result['trigger_time']:.2f} s"),
             f"displacement {result['displacement']:.3f} m, greatest velocity {result['greatest_velocity']:.2f} m/s"]
 
 

@@ -52,7 +52,7 @@ def open_history(folder):
     """history.h5 of a run folder, open for reading."""
     path = folder / "history.h5"
     if not path.exists():
-        raise Missing("no history.h5")
+        raise Missing("no history.h5 yet: it comes with the first checkpoint")
     return h5py.File(path, "r")
 
 

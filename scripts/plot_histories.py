@@ -106,18 +106,18 @@ def draw_input(axes, motion, components, record):
     axes[1].legend(fontsize=8)
 
 
-def draw_spectra(axis, component, outcrop, others):
+def draw_spectra(axis, component, outcrop, others, colour="k", name="outcrop = 2 × upgoing"):
     """5 % pseudo-acceleration spectra (g) of the outcrop motion and of the surface motions, one component.
 
-    outcrop: acceleration (m/s2) [time, component] and its step (s).
+    outcrop: acceleration (m/s2) [time, component] and its step (s), drawn in this colour and under this name.
     """
     periods = spectrum.default_periods()
-    motions = [("outcrop = 2 × upgoing", outcrop[0][:, component], outcrop[1])]
+    motions = [(name, outcrop[0][:, component], outcrop[1])]
     motions += [(name, *spectrum.acceleration_of(time, velocity[:, component])) for name, time, velocity in others]
     for k, (name, acceleration, dt) in enumerate(motions):
         # Periods the samples cannot resolve are left out.
         shown = periods[periods >= 4.0 * dt]
-        style = {"color": "k", "lw": 1.8} if k == 0 else {"lw": 1.0, "ls": "--" if name.startswith("free field, ") else "-"}
+        style = {"color": colour, "lw": 1.8} if k == 0 else {"lw": 1.0, "ls": "--" if name.startswith("free field, ") else "-"}
         axis.semilogx(shown, spectrum.pseudo_acceleration(acceleration, dt, shown) / spectrum.GRAVITY, label=name,
                       **style)
     axis.set_xlim(periods[0], periods[-1])

@@ -58,10 +58,13 @@ def draw_slide(axis, file, trigger):
     """Moved area (m2), and the centre of mass' displacement (m) on the right."""
     slide = group_of(file, "slide")
     time = array(slide, "time")
-    axis.plot(time, array(slide, "moved_area"), "C0", lw=1.0)
-    axis.set_title("moved area (m², blue), its displacement (m, green)")
+    axis.plot(time, array(slide, "moved_area"), "C0-", lw=1.0)
+    axis.set_title("moved ground: area (full), mean displacement (dashed)")
+    axis.set_ylabel("area (m²)", color="C0")
     other = axis.twinx()
-    other.plot(time, np.linalg.norm(array(slide, "centre_of_mass_displacement"), axis=1), "C2", lw=1.0)
+    other.plot(time, np.linalg.norm(array(slide, "centre_of_mass_displacement"), axis=1), "C1--", lw=1.0)
+    other.set_ylabel("displacement (m)", color="C1")
+    other.grid(False)
     other.set_ylim(bottom=0.0)
     axis.set_ylim(bottom=0.0)
     mark_trigger(axis, trigger)
@@ -110,7 +113,7 @@ def measures(summary):
     rows = [("trigger time", value(slide["trigger_time"], "s")),
             ("moved area (over 1 m)", value(slide["moved_area"], "m²", 1)),
             ("moved mass", value(slide["moved_mass"] / 1000.0, "t/m", 1)),
-            ("its centre of mass moved", f"{dx:.2f} m, {dy:.2f} m"),
+            ("its centre of mass moved", f"{dx:.2f} m in x, {dy:.2f} m in y"),
             ("toe advance", value(slide["toe_advance"], "m") + f", to x = {value(slide['toe'], 'm', 1)}"),
             ("greatest velocity, 99th percentile", peak_text(slide["peak_velocity"], "m/s")),
             ("greatest velocity, point", peak_text(slide["point_velocity"], "m/s")),

@@ -113,6 +113,7 @@ def draw_panel(axis, particles, panel, extent):
         values = np.where(grey, np.nan, values)
     axis.imshow(image(particles, values), cmap=panel["colours"], norm=panel["norm"], **where)
     axis.set_title(panel["title"], fontsize=10)
+    axis.grid(False)
     axis.set_ylabel("y (m)")
 
 
@@ -155,7 +156,7 @@ def top_of(fields, percentile):
     return max(1e-6, float(np.percentile(positive, percentile))) if positive.size else 1e-6
 
 
-def static_stress(folder, heading):
+def static_stress(folder, heading, width=WIDTH):
     """Stresses (kPa, tension positive) at the end of the static stage."""
     path = folder / "final.h5"
     if not path.exists():
@@ -170,7 +171,7 @@ def static_stress(folder, heading):
         ("σxx", xx, "viridis", Normalize(min(low_xx, -1e-6), 0.0)),
         ("τxy", xy, "RdBu_r", Normalize(-shear, shear)),
         ("q = √(3 J₂)", q, "inferno_r", Normalize(0.0, max(top_q, 1e-6))))]
-    figure, axes = stack([particles] * len(panels), panels)
+    figure, axes = stack([particles] * len(panels), panels, width)
     for axis, panel in zip(axes, panels):
         colour_bar(figure, axis, [panel], "kPa", aspect=15)
     return titled(figure, heading + ", static state (tension positive)")

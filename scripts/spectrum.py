@@ -101,6 +101,23 @@ def significant_duration(acceleration, dt, start=0.05, end=0.95):
     return last - first
 
 
+def cumulative_absolute_velocity(acceleration, dt):
+    """CAV, the integral of |a| (m/s), exact for an acceleration that is linear between samples."""
+    before, after = acceleration[:-1], acceleration[1:]
+    size = np.abs(before) + np.abs(after)
+    crossing = before * after < 0.0  # two triangles
+    areas = np.where(crossing, (before**2 + after**2) / np.where(crossing, size, 1.0), size)
+    return 0.5 * dt * areas.sum()
+
+
+def intensity_measures(acceleration, velocity, dt):
+    """PGA (m/s2) and its time (s), PGV (m/s), Arias intensity (m/s), CAV (m/s) and D5-95 (s) of a motion, by name."""
+    at = int(np.abs(acceleration).argmax())
+    return {"pga": abs(acceleration[at]), "pga_time": at * dt, "pgv": np.abs(velocity).max(),
+            "arias": arias_intensity(acceleration, dt), "cav": cumulative_absolute_velocity(acceleration, dt),
+            "d5_95": significant_duration(acceleration, dt)}
+
+
 def peaks(acceleration, dt):
     """PGA (m/s2), PGV (m/s) and PGD (m), the velocity and displacement by trapezoidal integration from rest."""
     velocity = integral(acceleration, dt)

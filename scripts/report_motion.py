@@ -1,0 +1,189 @@
+"""Of a report: the motion as applied, histories of gauges and free field, response spectra, numbers."""
+from dataclasses import dataclass
+
+import numpy as np
+
+import plot_histories
+import report_html as html
+import spectrum
+from plot_common import Missing, array, label, open_history
+from settings import gauge_positions
+
+PERIODS = (0.1, 0.2, 0.3, 0.5, 1.0, 2.0, 3.0, 4.0)  # s, of the tables
+COMPONENTS = ("horizontal (x)", "vertical (y)")
+
+
+@dataclass
+class Motion:
+    """A motion with even steps."""
+
+    name: str
+    dt: float  # s
+    acceleration: np.ndarray  # m/s2 [time, component]
+    velocity: np.ndarray  # m/s [time, component]
+    free_field: bool = False
+
+    def component(self, k):
+        """Acceleration of a component, and its step."""
+        return self.acceleration[:, k], self.dt
+
+    @property
+    def time(self):
+        """Of the samples (s)."""
+        return self.dt * np.arange(len(self.acceleration))
+
+
+def outcrop_of(file):
+    """The outcrop motion, twice the upgoing one as applied."""
+    time, velocity, acceleration = plot_histories.read_motion(file)
+    return Motion("outcrop", float(time[1] - time[0]), 2.0 * acceleration, 2.0 * velocity)
+
+
+def surface_of(file):
+    """Motions of gauges and free-field surfaces: acceleration is the slope of the velocity's spline."""
+    found = []
+    for name, time, velocity in plot_histories.surface_motions(file):
+        parts = [spectrum.acceleration_of(time, velocity[:, k]) for k in range(velocity.shape[1])]
+        even = np.stack([np.interp(time[0] + parts[0][1] * np.arange(len(parts[0][0])), time, column) for column in velocity.T], axis=1)
+        found.append(Motion(name, parts[0][1], np.stack([a for a, _ in parts], axis=1), even, name.startswith("free field, ")))
+    return found
+
+
+def read(run):
+    """The outcrop motion, None without one, and the motions of the surface."""
+    with open_history(run.folder) as file:
+        return outcrop_of(file) if "motion" in file else None, surface_of(file)
+
+
+def shaken(outcrop):
+    """Components in which there is a motion."""
+    return [k for k in range(2) if np.any(outcrop.velocity[:, k])] or [0]
+
+
+def of_record(run):
+    """What the records were, and what was done to them."""
+    rows = []
+    for name, motion in run.summary.get("motion", {}).items():
+        rows += [(f"{name} record", f"{motion.get('source', '–')}, {motion.get('samples', '–')} samples of {motion.get('dt', '–')} s, "
+                  f"scale {motion.get('scale', 1):g}, recorded as {motion.get('recorded_as', '–')}")]
+        correction = motion.get("correction", {})
+        rows += [(f"{name} correction", f"baseline {correction.get('baseline', '–')}, high pass {correction.get('high_pass', 0):g} Hz, "
+                  f"taper {correction.get('taper', 0):g} s")]
+    if run.summary.get("motion_ended") is not None:
+        rows += [("motion ended", f"{run.summary['motion_ended']:.2f} s")]
+    return html.words(rows) if rows else ""
+
+
+def applied(run):
+    """The motion as applied, beside its spectrum."""
+    with open_history(run.folder) as file:
+        motion, record = plot_histories.read_motion(file), plot_histories.factor_of_record(file)
+        outcrop = outcrop_of(file)
+    components = shaken(outcrop)
+
+    def spectra(axis):
+        for k in components:
+            plot_histories.draw_spectra(axis, k, (outcrop.acceleration, outcrop.dt), [], f"C{k}" if len(components) > 1 else "k",
+                                        f"outcrop, {COMPONENTS[k]}")
+        axis.set(xlabel="period (s)", title="")
+        axis.legend()
+
+    return of_record(run) + html.grid([
+        html.panel(lambda axes: plot_histories.draw_input(axes, motion, components, record),
+                   "The upgoing motion as it entered at the base.", (5.2, 5.2), 3),
+        html.panel(spectra, "Response spectrum, 5 % damping, of the outcrop motion, twice the upgoing one.", (5.2, 5.2))])
+
+
+def rows_of(motions, values, ylabel):
+    """Draws one row for each motion, all on one scale."""
+    most = max(np.abs(values(motion)).max() for motion in motions) or 1.0
+
+    def draw(axes):
+        for axis, motion in zip(np.atleast_1d(axes), motions):
+            axis.plot(motion.time, values(motion), "k" if motion.name == "outcrop" else "C0", lw=0.6)
+            axis.set_ylim(-1.08 * most, 1.08 * most)
+            axis.set_title(motion.name, loc="left", pad=2)
+        middle = np.atleast_1d(axes)[len(motions) // 2]
+        middle.set_ylabel(ylabel)
+        axis.set_xlabel("time (s)")
+
+    return draw
+
+
+def histories(run):
+    """Accelerations and velocities row by row; displacements relative to the base."""
+    outcrop, motions = read(run)
+    if not motions:
+        raise Missing("the run has no gauge and no free field")
+    stacked = ([outcrop] if outcrop else []) + motions
+    size = (5.2, 0.75 + 0.95 * len(stacked))
+    parts = []
+    for quantity, unit in (("acceleration", "m/s²"), ("velocity", "m/s")):
+        for k in range(2):
+            draw = rows_of(stacked, lambda motion, q=quantity, c=k: getattr(motion, q)[:, c], f"{quantity}, {'xy'[k]} ({unit})")
+            parts.append(html.panel(draw, f"{quantity.capitalize()}, {COMPONENTS[k]}, all on one scale.", size, len(stacked)))
+    return html.grid(parts) + displacements(run)
+
+
+def displacements(run):
+    """Displacements of gauges and free-field surfaces relative to the base of the left free field."""
+    with open_history(run.folder) as file:
+        series, where = [], "relative to the base of the left free field, in total where there is none"
+        base = file["free_field/left/base_displacement"][...] if "free_field/left/base_displacement" in file else 0.0
+        if "gauges" in file:
+            time, names, fields = plot_histories.read_gauges(file)
+            series += [(label(name), time, fields["displacement"][:, k] - base) for k, name in enumerate(names)]
+        for side in ("left", "right"):
+            if f"free_field/{side}" in file:
+                column = file[f"free_field/{side}"]
+                series.append((f"free field, {side}", array(column, "time"), array(column, "surface_displacement") - base))
+
+    def draw(axis, k):
+        for name, time, values in series:
+            axis.plot(time, values[:, k], "--" if name.startswith("free field, ") else "-", lw=1.0, label=name)
+        axis.set(xlabel="time (s)", ylabel=f"displacement, {'xy'[k]} (m)")
+        axis.legend()
+
+    return html.grid([html.panel(lambda axis, k=k: draw(axis, k), f"Displacement, {COMPONENTS[k]}, {where}.") for k in range(2)])
+
+
+def spectra(run):
+    """Response spectra of gauges and free field over that of the outcrop."""
+    outcrop, motions = read(run)
+    if outcrop is None:
+        raise Missing("the run has no motion")
+    others = [(motion.name, motion.dt * np.arange(len(motion.velocity)), motion.velocity) for motion in motions]
+
+    def draw(axis, k):
+        plot_histories.draw_spectra(axis, k, (outcrop.acceleration, outcrop.dt), others)
+        axis.set(xlabel="period (s)", title="")
+        axis.legend()
+
+    return html.grid([html.panel(lambda axis, k=k: draw(axis, k), f"Response spectra, 5 % damping, {COMPONENTS[k]}.", (5.2, 3.8))
+                      for k in (shaken(outcrop) if len(shaken(outcrop)) > 1 else (0, 1))])
+
+
+def numbers(run):
+    """Intensity measures and spectral accelerations of all motions."""
+    outcrop, motions = read(run)
+    motions = ([outcrop] if outcrop else []) + motions
+    if not motions:
+        raise Missing("the run has no motion, no gauge and no free field")
+    parts = []
+    for k, component in enumerate(COMPONENTS):
+        rows, spectral = [], []
+        for motion in motions:
+            acceleration, dt = motion.component(k)
+            if not np.any(acceleration):
+                continue
+            m = spectrum.intensity_measures(acceleration, motion.velocity[:, k], dt)
+            rows.append([motion.name, *map(html.number, (m["pga"] / spectrum.GRAVITY,)), f"{m['pga_time']:.2f}",
+                         *map(html.number, (m["pgv"], m["arias"], m["cav"])), f"{m['d5_95']:.1f}"])
+            known = [period for period in PERIODS if period >= 4 * dt]
+            values = spectrum.pseudo_acceleration(acceleration, dt, known) / spectrum.GRAVITY
+            spectral.append([motion.name] + ["–"] * (len(PERIODS) - len(known)) + [html.number(value) for value in values])
+        parts += [html.table(["", "PGA (g)", "at (s)", "PGV (m/s)", "Arias (m/s)", "CAV (m/s)", "D5-95 (s)"], rows, component.capitalize()),
+                  html.table(["5 % Sa (g) at T ="] + [f"{period:g} s" for period in PERIODS], spectral)]
+    left_out = [name for name in gauge_positions(run.settings) if name not in [motion.name.strip() for motion in motions]]
+    gone = html.paragraph(f"Left out, since the histories have gaps or are too short: {', '.join(left_out)}.", "note") if left_out else ""
+    return gone + "".join(parts)
