@@ -90,14 +90,15 @@ def series(group, where):
         corners = ["left", "right"] if data.ndim == 3 else [""]
         for k, place in np.ndenumerate(np.arange(int(np.prod(data.shape[1:]))).reshape(data.shape[1:])):
             parts = ([corners[k[0]]] if data.ndim == 3 else []) + ([names_of(group, data.shape[-1])[k[-1]]] if k else [])
-            columns.append((" ".join([name.replace("_", " "), *parts]) + f" ({unit})", data[...].reshape(len(time), -1)[:, place]))
+            head = " ".join([name.replace("_", " "), *parts]) + f" ({unit})"
+            columns.append((head, data[...].reshape(len(time), -1)[:, place]))
     if len(columns) == 1:
         raise Missing(f"{where} has no series")
     return columns
 
 
 def gauge_columns(file, k):
-    """Columns of a gauge: acceleration (the slope of the velocity's spline), velocity, displacement, and that relative to the base."""
+    """Columns of a gauge: acceleration (slope of the velocity's spline), velocity, displacement, in total and from the base."""
     time, _, fields = read_gauges(file)
     velocity, moved = fields["velocity"][:, k], fields["displacement"][:, k]
     known = np.isfinite(velocity).all(axis=1)
@@ -107,7 +108,8 @@ def gauge_columns(file, k):
     parts = [("acceleration", "m/s2", acceleration), ("velocity", "m/s", velocity), ("displacement", "m", moved)]
     if "free_field/left/base_displacement" in file:
         parts.append(("displacement relative to base", "m", moved - file["free_field/left/base_displacement"][...]))
-    return [("time (s)", time)] + [(f"{name} {axis} ({unit})", values[:, c]) for name, unit, values in parts for c, axis in enumerate("xy")]
+    return [("time (s)", time)] + [(f"{name} {axis} ({unit})", values[:, c]) for name, unit, values in parts
+                                   for c, axis in enumerate("xy")]
 
 
 def at2(motion, component, title):
@@ -118,7 +120,7 @@ def at2(motion, component, title):
 
 
 def motions_of(run, stem_of, alone):
-    """(name, motion, component) of the gauges and, unless these are `alone`, of outcrop and free field, where they move at all."""
+    """(name, motion, component) of the gauges and, unless these are `alone`, of outcrop and free field, where they move."""
     outcrop, surface = report_motion.read(run)
     named = [("outcrop", outcrop)] if outcrop and not alone else []
     for motion in surface:
@@ -241,7 +243,8 @@ def main():
         files = histories(given) if given.section is None else section(given)
         there = [name for name in files if (given.out / name).exists()]
         if there and not given.force:
-            print(f"export: {given.out / there[0]}: is there already; give another --out, or --force to replace it", file=sys.stderr)
+            print(f"export: {given.out / there[0]}: is there already; give another --out, or --force to replace it",
+                  file=sys.stderr)
             return 73
         write(files, given.out)
     except Refused as reason:

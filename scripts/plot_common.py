@@ -64,7 +64,7 @@ def frame_times(folder):
             with h5py.File(path, "r") as file:
                 frames.append((float(np.ravel(file.attrs["time"])[0]), path))
         except (OSError, KeyError) as error:
-            print(f"plot-run: {path.name} left out: {error}", file=sys.stderr)
+            print(f"{path.name} left out: {error}", file=sys.stderr)
     if not frames:
         raise Missing("no frame-*.hdf with a time")
     return sorted(frames)

@@ -68,9 +68,9 @@ def principal(stress):
 def softened(settings, key, name, strain):
     """A strength that falls linearly from its peak to its residual value with plastic strain."""
     peak, residual = quantity(settings, f"{key}.{name}.peak"), quantity(settings, f"{key}.{name}.residual")
-    over = quantity(settings, f"{key}.softening.strain")
-    if over is None and f"{key}.softening.displacement" in settings:
-        over = quantity(settings, f"{key}.softening.displacement") / np.sqrt(3) / quantity(settings, f"{key}.softening.band_width")
+    over, slip, width = (quantity(settings, f"{key}.softening.{part}") for part in ("strain", "displacement", "band_width"))
+    if over is None and slip is not None:
+        over = slip / np.sqrt(3) / width
     if residual is None or over is None:
         return np.full(len(strain), peak)
     return peak + (residual - peak) * np.minimum(strain / over, 1.0)

@@ -106,6 +106,11 @@ def draw_input(axes, motion, components, record):
     axes[1].legend(fontsize=8)
 
 
+def line_of(name):
+    """How a motion's line is drawn; its colour, and dashes where colours repeat, are the next of the cycle."""
+    return {"lw": 1.0} | ({"ls": "-."} if name.startswith("free field, ") else {})
+
+
 def draw_spectra(axis, component, outcrop, others, colour="k", name="outcrop = 2 × upgoing"):
     """5 % pseudo-acceleration spectra (g) of the outcrop motion and of the surface motions, one component.
 
@@ -117,7 +122,7 @@ def draw_spectra(axis, component, outcrop, others, colour="k", name="outcrop = 2
     for k, (name, acceleration, dt) in enumerate(motions):
         # Periods the samples cannot resolve are left out.
         shown = periods[periods >= 4.0 * dt]
-        style = {"color": colour, "lw": 1.8} if k == 0 else {"lw": 1.0, "ls": "--" if name.startswith("free field, ") else "-"}
+        style = {"color": colour, "lw": 1.8, "ls": "-"} if k == 0 else line_of(name)
         axis.semilogx(shown, spectrum.pseudo_acceleration(acceleration, dt, shown) / spectrum.GRAVITY, label=name,
                       **style)
     axis.set_xlim(periods[0], periods[-1])

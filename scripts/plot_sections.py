@@ -73,7 +73,7 @@ def common_extent(sections):
 def add_pixels(particles, extent, across=PIXELS):
     """Stores for every pixel, so many of them across, its nearest particle, -1 where there is no ground.
 
-    Ground reaches from a particle as far as its size. Where slip has stretched a band, its particles lie farther apart
+    A particle covers a square of its volume. Where slip has stretched a band, its particles lie farther apart
     along it; gaps of up to two particles, about a cell, are closed, and holes of up to four with ground all around.
     """
     left, right, low, high = extent
@@ -82,10 +82,10 @@ def add_pixels(particles, extent, across=PIXELS):
     x = left + (np.arange(across) + 0.5) * pixel
     y = low + (np.arange(rows) + 0.5) * (high - low) / rows
     size = np.append(particles["size"], 0.0)  # the last is that of no particle within reach
-    distance, nearest = cKDTree(particles["position"]).query(np.stack(np.meshgrid(x, y), axis=-1), workers=-1,
+    distance, nearest = cKDTree(particles["position"]).query(np.stack(np.meshgrid(x, y), axis=-1), p=np.inf, workers=-1,
                                                              distance_upper_bound=2.0 * size.max())
     reach = np.median(size[:-1]) / pixel
-    widened = distance_transform_edt(distance > size[nearest]) <= reach
+    widened = distance_transform_edt(distance > 0.5 * size[nearest] + 0.5 * pixel) <= reach
     ground = without_holes(distance_transform_edt(widened) > reach, 2.0 * reach)
     particles["pixels"] = np.where(ground & (nearest < len(size) - 1), nearest, -1)
 

@@ -47,17 +47,19 @@ def guarded(part, run, damaged):
     except (OSError, KeyError, ValueError, TypeError, IndexError) as reason:
         plt.close("all")
         damaged.append(f"{part.__name__}: {type(reason).__name__}: {reason}")
-        return report_html.paragraph(f"Not shown, since a file of the run is damaged or of another version: {reason}.", "note warning")
+        told = f"Not shown, since a file of the run is damaged or of another version: {reason}."
+        return report_html.paragraph(told, "note warning")
 
 
 def refusal(given):
     """What is wrong with folder or output, with the exit code; None if nothing is."""
     folder, out = given.folder, given.out
+    wanted = "give the output folder of mpm-static or mpm-seismic"
     if not folder.is_dir():
-        return f"{folder}: no such folder; give the output folder of mpm-static or mpm-seismic", 66
+        return f"{folder}: no such folder; {wanted}", 66
     if not (folder / "identity.json").exists():
-        return f"{folder}: no identity.json, so that it is no run's folder; give the output folder of mpm-static or mpm-seismic", 66
-    if out.exists() and (not out.is_file() or f'name="generator" content="{report_html.GENERATOR}"' not in out.read_text(errors="replace")[:2000]):
+        return f"{folder}: no identity.json, so that it is no run's folder; {wanted}", 66
+    if out.exists() and not (out.is_file() and report_html.MARK in out.read_text(errors="replace")[:2000]):
         return f"{out}: is there already and no report; give another --out", 73
     return None
 

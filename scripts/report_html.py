@@ -9,7 +9,8 @@ import math
 
 import matplotlib.pyplot as plt
 
-GENERATOR = "seismpm report"
+MARK = '<meta name="generator" content="seismpm report">'  # by which a report is known
+POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'"  # a browser that obeys loads and runs nothing
 PANEL = (5.2, 3.2)  # inches: letters of 9 pt stay readable where a phone shows the picture 9 cm wide
 STYLE = {"font.size": 9, "axes.titlesize": 9, "axes.labelsize": 9, "legend.fontsize": 8, "xtick.labelsize": 8,
          "ytick.labelsize": 8, "axes.grid": True, "grid.alpha": 0.3}
@@ -68,7 +69,9 @@ def number(value, digits=3):
     if value == 0:
         return "0"
     places = digits - 1 - math.floor(math.log10(abs(value)))
-    return f"{value:,.{max(0, places)}f}".replace(",", "\u202f").replace("-", "−") if -4 < places < 6 else f"{value:.{digits - 1}e}"
+    if not -4 < places < 6:
+        return f"{value:.{digits - 1}e}"
+    return f"{value:,.{max(0, places)}f}".replace(",", "\u202f").replace("-", "−")
 
 
 def paragraph(words, kind=""):
@@ -105,6 +108,12 @@ def picture(figure, caption, kind="svg", name=""):
     return embedded(data.getvalue(), {"svg": "image/svg+xml", "png": "image/png"}[kind], caption, name)
 
 
+def legend(axis):
+    """A legend within the axes, or above them where it has many lines."""
+    many = len(axis.get_legend_handles_labels()[0]) > 5
+    axis.legend(**({"loc": "lower center", "bbox_to_anchor": (0.5, 1.0), "ncols": 3, "frameon": False} if many else {}))
+
+
 def panel(draw, caption, size=PANEL, rows=1, name=""):
     """A small picture of lines: `draw` is given its axes, a list where there are several rows."""
     figure, axes = plt.subplots(rows, 1, figsize=size, sharex=True, layout="constrained")
@@ -123,6 +132,6 @@ def page(title, lead, sections):
     body = "".join(f'<section id="s{k}"><h2>{escaped(name)}</h2>{part}</section>' for k, (name, part) in enumerate(sections))
     return ('<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
             '<meta name="viewport" content="width=device-width, initial-scale=1">'
-            "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; style-src 'unsafe-inline'\">"
-            f'<meta name="generator" content="{GENERATOR}"><link rel="icon" href="data:,"><title>{escaped(title)}</title><style>{CSS}</style></head><body><main>'
+            f'<meta http-equiv="Content-Security-Policy" content="{POLICY}">{MARK}<link rel="icon" href="data:,">'
+            f"<title>{escaped(title)}</title><style>{CSS}</style></head><body><main>"
             f"<h1>{escaped(title)}</h1>{lead}<nav><ul>{contents}</ul></nav>{body}</main></body></html>\n")

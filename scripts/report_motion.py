@@ -9,7 +9,9 @@ import spectrum
 from plot_common import Missing, array, label, open_history
 from settings import gauge_positions
 
+MEASURES = ("", "PGA (g)", "at (s)", "PGV (m/s)", "Arias (m/s)", "CAV (m/s)", "D5-95 (s)")
 PERIODS = (0.1, 0.2, 0.3, 0.5, 1.0, 2.0, 3.0, 4.0)  # s, of the tables
+MOST_SPREAD = 10.0  # of the greatest over the middle of values that are drawn on one scale
 COMPONENTS = ("horizontal (x)", "vertical (y)")
 
 
@@ -43,9 +45,9 @@ def surface_of(file):
     """Motions of gauges and free-field surfaces: acceleration is the slope of the velocity's spline."""
     found = []
     for name, time, velocity in plot_histories.surface_motions(file):
-        parts = [spectrum.acceleration_of(time, velocity[:, k]) for k in range(velocity.shape[1])]
-        even = np.stack([np.interp(time[0] + parts[0][1] * np.arange(len(parts[0][0])), time, column) for column in velocity.T], axis=1)
-        found.append(Motion(name, parts[0][1], np.stack([a for a, _ in parts], axis=1), even, name.startswith("free field, ")))
+        (x, dt), (y, _) = (spectrum.acceleration_of(time, column) for column in velocity.T)
+        even = [np.interp(time[0] + dt * np.arange(len(x)), time, column) for column in velocity.T]
+        found.append(Motion(name, dt, np.stack([x, y], axis=1), np.stack(even, axis=1), name.startswith("free field, ")))
     return found
 
 
@@ -64,11 +66,12 @@ def of_record(run):
     """What the records were, and what was done to them."""
     rows = []
     for name, motion in run.summary.get("motion", {}).items():
-        rows += [(f"{name} record", f"{motion.get('source', '–')}, {motion.get('samples', '–')} samples of {motion.get('dt', '–')} s, "
-                  f"scale {motion.get('scale', 1):g}, recorded as {motion.get('recorded_as', '–')}")]
-        correction = motion.get("correction", {})
-        rows += [(f"{name} correction", f"baseline {correction.get('baseline', '–')}, high pass {correction.get('high_pass', 0):g} Hz, "
-                  f"taper {correction.get('taper', 0):g} s")]
+        samples = f"{motion.get('samples', '–')} samples of {motion.get('dt', '–')} s"
+        rows += [(f"{name} record", f"{motion.get('source', '–')}, {samples}, scale {motion.get('scale', 1):g}, "
+                  f"recorded as {motion.get('recorded_as', '–')}")]
+        done = motion.get("correction", {})
+        rows += [(f"{name} correction", f"baseline {done.get('baseline', '–')}, high pass {done.get('high_pass', 0):g} Hz, "
+                  f"taper {done.get('taper', 0):g} s")]
     if run.summary.get("motion_ended") is not None:
         rows += [("motion ended", f"{run.summary['motion_ended']:.2f} s")]
     return html.words(rows) if rows else ""
@@ -83,8 +86,8 @@ def applied(run):
 
     def spectra(axis):
         for k in components:
-            plot_histories.draw_spectra(axis, k, (outcrop.acceleration, outcrop.dt), [], f"C{k}" if len(components) > 1 else "k",
-                                        f"outcrop, {COMPONENTS[k]}")
+            colour = f"C{k}" if len(components) > 1 else "k"
+            plot_histories.draw_spectra(axis, k, (outcrop.acceleration, outcrop.dt), [], colour, f"outcrop, {COMPONENTS[k]}")
         axis.set(xlabel="period (s)", title="")
         axis.legend()
 
@@ -94,12 +97,13 @@ def applied(run):
         html.panel(spectra, "Response spectrum, 5 % damping, of the outcrop motion, twice the upgoing one.", (5.2, 5.2))])
 
 
-def rows_of(motions, values, ylabel):
-    """Draws one row for each motion, all on one scale."""
-    most = max(np.abs(values(motion)).max() for motion in motions) or 1.0
+def rows_of(motions, values, ylabel, own_scales):
+    """Draws one row for each motion, all on one scale or each on its own."""
+    greatest = {motion.name: np.abs(values(motion)).max() or 1.0 for motion in motions}
 
     def draw(axes):
         for axis, motion in zip(np.atleast_1d(axes), motions):
+            most = greatest[motion.name] if own_scales else max(greatest.values())
             axis.plot(motion.time, values(motion), "k" if motion.name == "outcrop" else "C0", lw=0.6)
             axis.set_ylim(-1.08 * most, 1.08 * most)
             axis.set_title(motion.name, loc="left", pad=2)
@@ -120,8 +124,12 @@ def histories(run):
     parts = []
     for quantity, unit in (("acceleration", "m/s²"), ("velocity", "m/s")):
         for k in range(2):
-            draw = rows_of(stacked, lambda motion, q=quantity, c=k: getattr(motion, q)[:, c], f"{quantity}, {'xy'[k]} ({unit})")
-            parts.append(html.panel(draw, f"{quantity.capitalize()}, {COMPONENTS[k]}, all on one scale.", size, len(stacked)))
+            values = lambda motion, q=quantity, c=k: getattr(motion, q)[:, c]
+            spread = np.array([np.abs(values(motion)).max() for motion in stacked if np.any(values(motion))] or [1.0])
+            own = spread.max() > MOST_SPREAD * np.median(spread)
+            draw = rows_of(stacked, values, f"{quantity}, {'xy'[k]} ({unit})", own)
+            told = f"{quantity.capitalize()}, {COMPONENTS[k]}, {'each on its own scale' if own else 'all on one scale'}."
+            parts.append(html.panel(draw, told, size, len(stacked)))
     return html.grid(parts) + displacements(run)
 
 
@@ -140,9 +148,9 @@ def displacements(run):
 
     def draw(axis, k):
         for name, time, values in series:
-            axis.plot(time, values[:, k], "--" if name.startswith("free field, ") else "-", lw=1.0, label=name)
+            axis.plot(time, values[:, k], label=name, **plot_histories.line_of(name))
         axis.set(xlabel="time (s)", ylabel=f"displacement, {'xy'[k]} (m)")
-        axis.legend()
+        html.legend(axis)
 
     return html.grid([html.panel(lambda axis, k=k: draw(axis, k), f"Displacement, {COMPONENTS[k]}, {where}.") for k in range(2)])
 
@@ -157,10 +165,10 @@ def spectra(run):
     def draw(axis, k):
         plot_histories.draw_spectra(axis, k, (outcrop.acceleration, outcrop.dt), others)
         axis.set(xlabel="period (s)", title="")
-        axis.legend()
+        html.legend(axis)
 
-    return html.grid([html.panel(lambda axis, k=k: draw(axis, k), f"Response spectra, 5 % damping, {COMPONENTS[k]}.", (5.2, 3.8))
-                      for k in (shaken(outcrop) if len(shaken(outcrop)) > 1 else (0, 1))])
+    told = [f"Response spectra, 5 % damping, {component}." for component in COMPONENTS]
+    return html.grid([html.panel(lambda axis, k=k: draw(axis, k), told[k], (5.2, 3.8)) for k in range(2)])
 
 
 def numbers(run):
@@ -182,8 +190,10 @@ def numbers(run):
             known = [period for period in PERIODS if period >= 4 * dt]
             values = spectrum.pseudo_acceleration(acceleration, dt, known) / spectrum.GRAVITY
             spectral.append([motion.name] + ["–"] * (len(PERIODS) - len(known)) + [html.number(value) for value in values])
-        parts += [html.table(["", "PGA (g)", "at (s)", "PGV (m/s)", "Arias (m/s)", "CAV (m/s)", "D5-95 (s)"], rows, component.capitalize()),
+        parts += [html.table(MEASURES, rows, component.capitalize()),
                   html.table(["5 % Sa (g) at T ="] + [f"{period:g} s" for period in PERIODS], spectral)]
     left_out = [name for name in gauge_positions(run.settings) if name not in [motion.name.strip() for motion in motions]]
-    gone = html.paragraph(f"Left out, since the histories have gaps or are too short: {', '.join(left_out)}.", "note") if left_out else ""
-    return gone + "".join(parts)
+    if left_out:
+        told = f"Left out, since the histories have gaps or are too short: {', '.join(left_out)}."
+        parts.insert(0, html.paragraph(told, "note"))
+    return "".join(parts)

@@ -48,7 +48,7 @@ class Run:
 
     def state(self):
         """The state at the end, or the newest checkpoint."""
-        states = [self.folder / "final.h5"] if (self.folder / "final.h5").exists() else sorted(self.folder.glob("checkpoint-*.h5"))
+        states = [*sorted(self.folder.glob("checkpoint-*.h5")), *self.folder.glob("final.h5")]
         if not states:
             raise Missing("no final.h5 and no checkpoint yet")
         return states[-1]
@@ -65,7 +65,8 @@ def lead(run):
     cards = []
     if "slide" in run.summary:
         slide = run.summary["slide"]
-        cards = [("trigger", plot_page.value(slide["trigger_time"], "s")), ("moved area", f"{html.number(slide['moved_area'])} m²"),
+        cards = [("trigger", plot_page.value(slide["trigger_time"], "s")),
+                 ("moved area", f"{html.number(slide['moved_area'])} m²"),
                  ("moved mass", f"{html.number(slide['moved_mass'] / 1e3)} t/m"),
                  ("its displacement", f"{html.number(float(np.hypot(*slide['centre_of_mass_displacement'])))} m"),
                  ("toe advance", plot_page.value(slide["toe_advance"], "m")),
@@ -100,10 +101,11 @@ def scene(run):
     axes[0].set_ylim(top=axes[0].get_ylim()[1] + 0.06 * np.ptp(axes[0].get_xlim()))
     axes[0].legend(handles=[Patch(color=colour, label=name) for colour, name in zip(colours, names)], loc="upper right")
     area = [float(np.sum(particles["size"][particles["material"] == k] ** 2)) for k in range(len(names))]
-    rows = [[name, run.settings.get(f"materials.{name}.model", "–"), *moduli(run.settings, f"materials.{name}"), html.number(area[k]),
-             bounds(particles, k)] for k, name in enumerate(names)]
+    rows = [[name, run.settings.get(f"materials.{name}.model", "–"), *moduli(run.settings, f"materials.{name}"),
+             html.number(area[k]), bounds(particles, k)] for k, name in enumerate(names)]
     head = ["material", "model", "ρ (kg/m³)", "E (MPa)", "ν", "c_s (m/s)", "c_p (m/s)", "area (m²)", "x, y (m)"]
-    return html.picture(figure, "The ground at the start, its materials, and the gauges (triangles).", "png", "wide") + html.table(head, rows) + laws(run)
+    told = "The ground at the start, its materials, and the gauges (triangles)."
+    return html.picture(figure, told, "png", "wide") + html.table(head, rows) + laws(run)
 
 
 def moduli(settings, key):
@@ -130,9 +132,17 @@ def laws(run):
     rows = []
     for name in names_below(run.settings, "materials"):
         key = f"materials.{name}."
-        rows += [(f"{name}: {path[len(key):].replace('.', ', ').replace('_', ' ')}", value) for path, value in run.settings.items()
-                 if path.startswith(key) and path[len(key):] not in common]
+        rows += [(f"{name}: {path[len(key):].replace('.', ', ').replace('_', ' ')}", usual(value)) for path, value in
+                 run.settings.items() if path.startswith(key) and path[len(key):] not in common]
     return html.words(rows) if rows else ""
+
+
+def usual(value):
+    """A setting in the units that are usual: degrees and kPa."""
+    for unit, factor, shown in ((" rad", np.degrees(1), "deg"), (" Pa", 1e-3, "kPa")):
+        if value.endswith(unit):
+            return f"{float(value.removesuffix(unit)) * factor:.6g} {shown}"
+    return value
 
 
 def static_stress(run):
@@ -165,10 +175,12 @@ def case(run):
     """Command, versions, and the case with every default."""
     summary = run.summary
     rows = [("command", summary.get("command", "–")), ("seismpm", f"{summary.get('version', '–')} ({summary.get('git', '–')})"),
-            ("build", summary.get("build", "–")), ("case, sha256", summary.get("case_sha256", "–")), ("profile", summary.get("profile") or "none"),
+            ("build", summary.get("build", "–")), ("case, sha256", summary.get("case_sha256", "–")),
+            ("profile", summary.get("profile") or "none"),
             ("overrides", ", ".join(map(text, summary.get("overrides", []))) or "none")]
     rows += [(f"digest of {name}", value) for name, value in summary.get("digests", {}).items()]
     path = run.folder / "case-resolved.yaml"
     if not path.exists():
         return html.words(rows) + html.paragraph("There is no case-resolved.yaml.", "note")
-    return html.words(rows) + f"<h3>The case, every default written out</h3><pre>{html.escaped(path.read_text(errors='replace'))}</pre>"
+    resolved = html.escaped(path.read_text(errors="replace"))
+    return html.words(rows) + f"<h3>The case, every default written out</h3><pre>{resolved}</pre>"

@@ -27,7 +27,7 @@ def carried(run):
 
 
 def ratios(run, k, motions, reference, over):
-    """Two pictures, the ratio of response spectra and the transfer function of the motions over a reference (a function of each)."""
+    """The ratio of response spectra and the transfer function of the motions over what `reference` gives for each."""
     limit = carried(run)
 
     def draw(axis, quantity):
@@ -39,15 +39,15 @@ def ratios(run, k, motions, reference, over):
             else:
                 at = np.geomspace(max(0.04, 4 * max(dt for _, dt in parts)), 5.0, 120)
                 values = amplification.spectral_ratio(*parts, at)
-            axis.plot(at, values, "--" if motion.free_field else "-", lw=1.0, label=motion.name)
+            axis.plot(at, values, label=motion.name, **plot_histories.line_of(motion.name))
         axis.axhline(1.0, color="k", lw=0.6)
         if limit and limit < 25:
             axis.axvline(limit if quantity == "transfer" else 1.0 / limit, color="k", lw=0.9, ls=":")
         logarithmic(axis.xaxis)
         logarithmic(axis.yaxis)
-        axis.set(xlabel="frequency (Hz)" if quantity == "transfer" else "period (s)", ylim=(max(0.05, axis.get_ylim()[0]), None),
-                 ylabel=f"{'|A|' if quantity == 'transfer' else 'Sa'} over {over}")
-        axis.legend()
+        axis.set(xlabel="frequency (Hz)" if quantity == "transfer" else "period (s)",
+                 ylim=(max(0.05, axis.get_ylim()[0]), None), ylabel=f"{'|A|' if quantity == 'transfer' else 'Sa'} over {over}")
+        html.legend(axis)
 
     dotted = f" Dotted: {limit:.1f} Hz, up to which the grid carries S waves in all materials." if limit else ""
     return [html.panel(lambda axis: draw(axis, "Sa"), f"Ratio of 5 % response spectra over {over}, {COMPONENTS[k]}.{dotted}"),
@@ -80,7 +80,7 @@ def amplified(run):
 
 
 def column_at_end(file, side):
-    """Height (m) above the base, displacement relative to the lowest particle (m), shear stress (kPa), plastic strain of a column."""
+    """Heights (m) of a column; displacement relative to the lowest (m), shear stress (kPa) and plastic strain there."""
     column = group_of(file, f"free_field/{side}")
     reference, position = array(column, "particles/reference"), array(column, "particles/position")
     strain = np.zeros(len(reference))
@@ -98,7 +98,8 @@ def profiles(run):
     """Profiles of the free field: what the state holds of the columns, and gauges that stand below each other."""
     told = html.paragraph("The run stores the surface and the base of the free-field columns over time, not what is between: their "
                           "greatest acceleration, strain and stress with depth cannot be told from it. Gauges below each other "
-                          "give them where they stand. Shown is the state of the columns at the end of the run, or at its last checkpoint.", "note")
+                          "give them where they stand. Shown is the state of the columns at the end of the run, or at its last "
+                          "checkpoint.", "note")
     state = run.state()
     with h5py.File(state, "r") as file:
         time = float(file["clock"].attrs["time"])
@@ -114,8 +115,9 @@ def profiles(run):
         axis.legend()
 
     kinds = ((1, "displacement relative to the base, x (m)"), (2, "shear stress τxy (kPa)"), (3, "plastic strain"))
-    return told + html.grid([html.panel(lambda axis, q=q, n=n: draw(axis, q, n), f"Free field at t = {time:.2f} s: {n}.", (3.9, 3.6))
-                             for q, n in kinds], True) + arrays(run)
+    panels = [html.panel(lambda axis, q=q, n=n: draw(axis, q, n), f"Free field at t = {time:.2f} s: {n}.", (3.9, 3.6))
+              for q, n in kinds]
+    return told + html.grid(panels, True) + arrays(run)
 
 
 def arrays(run):

@@ -50,9 +50,9 @@ def outline(run):
 
     width = x[1] - x[0]
     gained, lost = (float((sign * change)[sign * change > 0].sum() * width) for sign in (1, -1))
-    return html.panel(draw, f"The free surface before and after, and its rise: {html.number(gained)} m² of section were laid down "
-                      f"(at most {html.number(change.max())} m thick) and {html.number(lost)} m² lost (at most {html.number(-change.min())} m).",
-                      (6.5, 3.6), 2, "wide")
+    told = (f"The free surface before and after, and its rise: {html.number(gained)} m² of section were laid down (at most "
+            f"{html.number(change.max())} m thick) and {html.number(lost)} m² lost (at most {html.number(-change.min())} m).")
+    return html.panel(draw, told, (6.5, 3.6), 2, "wide")
 
 
 def series(run):

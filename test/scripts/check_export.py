@@ -118,8 +118,9 @@ def refusals(folder):
     wrong = []
     for words, code, part in (((folder, "--gauge", "crest"), 73, "--force"), ((folder, "--gauge", "crest", "--force"), 0, ""),
                               ((folder, "--gauge", "crset"), 64, "crest"), ((folder, "--section", "300"), 66, "it lies from"),
-                              ((folder, "--section", "3", "--fields", "pp"), 64, "plastic_strain"), ((folder, "--time", "3"), 64, "--section"),
-                              ((folder, "--section", "3", "--fields", "velocity"), 66, "velocity"), ((folder / "none",), 66, "no such folder"),
+                              ((folder, "--section", "3", "--fields", "pp"), 64, "plastic_strain"),
+                              ((folder, "--time", "3"), 64, "--section"), ((folder / "none",), 66, "no such folder"),
+                              ((folder, "--section", "3", "--fields", "velocity"), 66, "velocity"),
                               ((folder, "--guage", "crest"), 64, "did you mean '--gauge'?")):
         ended, said = exported(*words)
         wrong.append(ended != code or part not in said)
@@ -134,8 +135,9 @@ def read_back(folder):
     write_run(folder)
     exported(folder, "--gauge", "crest")
     (folder / "level.yaml").write_text(LEVEL)
-    done = subprocess.run([ROOT / "build" / "mpm-seismic", folder / "level.yaml", "--motion", folder / "export" / "gauge-crest-x.AT2", "--out",
-                           folder / "level", "--quiet"], capture_output=True, text=True, check=False, env=os.environ | {"OMP_NUM_THREADS": "1"})
+    command = [ROOT / "build" / "mpm-seismic", folder / "level.yaml", "--motion", folder / "export" / "gauge-crest-x.AT2",
+               "--out", folder / "level", "--quiet"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False, env=os.environ | {"OMP_NUM_THREADS": "1"})
     if done.returncode:
         print(done.stderr)
         return float(done.returncode), 0

@@ -74,6 +74,17 @@ def gaps():
     return float(label(particles["pixels"] < 0)[1] - 1), 0  # one piece: what is around
 
 
+def area():
+    """Ground is drawn as large as its particles are, to the half pixel that is added all around."""
+    x, y = (part.ravel() for part in np.meshgrid(np.arange(0, 60, 0.5), np.arange(0, 20, 0.5)))
+    particles = {"position": np.stack([x, y], axis=1), "size": np.full(len(x), 0.5)}
+    left, right, low, high = extent = plot_sections.common_extent([particles])
+    plot_sections.add_pixels(particles, extent, 600)
+    pixel = (right - left) / 600
+    drawn = (particles["pixels"] >= 0).mean() * (right - left) * (high - low)
+    return abs(drawn / (60 * 20) - 1), 160 * pixel / (60 * 20)
+
+
 def films():
     """A film has a frame for each of the run's, all of one size; it is not replaced unasked."""
     wrong = []
@@ -101,7 +112,7 @@ def films():
 
 def checks():
     """Name and (error, tolerance) of every check."""
-    for check in (von_mises, mohr_coulomb, slip_weakening, elastic, gaps, films):
+    for check in (von_mises, mohr_coulomb, slip_weakening, elastic, gaps, area, films):
         yield check.__doc__, check()
 
 

@@ -62,7 +62,8 @@ def made(folder, case, *settings):
 def table_of(page, column):
     """Rows, by their first cell, of the first table whose head has this column: what stands in each, as text."""
     for table in re.findall(r"<table>.*?</table>", page, re.DOTALL):
-        rows = [[html.unescape(cell) for cell in re.findall(r"<t[hd]>(.*?)</t[hd]>", row)] for row in re.findall(r"<tr>(.*?)</tr>", table)]
+        rows = [[html.unescape(cell) for cell in re.findall(r"<t[hd]>(.*?)</t[hd]>", row)]
+                for row in re.findall(r"<tr>(.*?)</tr>", table)]
         if column in rows[0]:
             return {row[0]: dict(zip(rows[0], row)) for row in rows[1:]}
     raise RuntimeError(f"no table has the column {column}")
@@ -157,7 +158,8 @@ def under_way(folder, shaken):
         shutil.copy(shaken / name, live)
     code, _ = reported(live)
     page = html.unescape((live / "report.html").read_text())
-    first = claims(code == 0, "has not ended" in page, "no history.h5 yet" in page, "there is no summary.json" in page, "data:image/webp" in page)
+    first = claims(code == 0, "has not ended" in page, "no history.h5 yet" in page, "there is no summary.json" in page,
+                   "data:image/webp" in page)
     (live / "history.h5").write_bytes(b"no HDF5")
     code, said = reported(live)
     return first[0] + claims(code == 65, "not shown" in said, "damaged" in (live / "report.html").read_text())[0], 0
@@ -209,12 +211,14 @@ def in_browser(folder, shaken):
         yield from ((name, "no Chromium is installed (Debian: chromium)") for name in names)
         return
     page, faulty = shaken / "report.html", folder / "faulty.html"
-    faulty.write_text('<div style="width:3000px">wide</div><img src="http://localhost:9/x.png"><script>console.error("bad")</script>')
+    faulty.write_text('<div style="width:3000px">wide</div><img src="http://localhost:9/x.png">'
+                      '<script>console.error("bad")</script>')
     with browser.Browser() as tab:
         yield names[0], claims(not shown(tab, page, 1280), tab.value("document.images.length") > 25, not shown(tab, page, 390, True))
         tab.ask("Emulation.setEmulatedMedia", media="print")
         shown(tab, page, 688)  # 182 mm between the margins
-        beyond = tab.value("[...document.querySelectorAll('main *')].filter(part => part.getBoundingClientRect().right > innerWidth + 1).length")
+        beyond = tab.value("[...document.querySelectorAll('main *')]"
+                           ".filter(part => part.getBoundingClientRect().right > innerWidth + 1).length")
         tab.print_to(folder / "report.pdf")
         paper = (folder / "report.pdf").read_bytes()
         yield names[1], claims(beyond == 0, paper.startswith(b"%PDF"), len(paper) > 100_000)
