@@ -50,10 +50,10 @@ table.words td:first-child{width:38%;min-width:7rem;color:#505050}
 pre{white-space:pre-wrap;font-size:.8rem;line-height:1.35;background:#f6f8fa;padding:.7rem}
 @page{size:A4;margin:14mm}
 @media print{
-body{font-size:9.5pt}main{max-width:none;padding:0}nav,.film img{display:none}
-.narrow,.grid{grid-template-columns:1fr 1fr}.narrow{grid-template-columns:1fr 1fr 1fr}.wide{max-width:14cm}.scroll{overflow:visible}
+html{font-size:9.5pt}body{font-size:1rem}main{max-width:none;padding:0}nav,.film img{display:none}
+.narrow,.grid{grid-template-columns:1fr 1fr}.narrow{grid-template-columns:1fr 1fr 1fr}.wide{max-width:14cm}.scroll{overflow:visible;break-inside:avoid}
 table{font-size:7.5pt}th,td{padding:.1rem .35rem}tr{break-inside:avoid}
-pre{font-size:7pt;background:none;padding:0}.cards{grid-template-columns:repeat(4,1fr)}}
+pre{font-size:7pt;background:none;padding:0;columns:2}.cards{grid-template-columns:repeat(4,1fr)}}
 """
 
 

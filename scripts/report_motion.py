@@ -107,8 +107,7 @@ def rows_of(motions, values, ylabel, own_scales):
             axis.plot(motion.time, values(motion), "k" if motion.name == "outcrop" else "C0", lw=0.6)
             axis.set_ylim(-1.08 * most, 1.08 * most)
             axis.set_title(motion.name, loc="left", pad=2)
-        middle = np.atleast_1d(axes)[len(motions) // 2]
-        middle.set_ylabel(ylabel)
+        axis.figure.supylabel(ylabel, fontsize="medium")
         axis.set_xlabel("time (s)")
 
     return draw
@@ -136,8 +135,9 @@ def histories(run):
 def displacements(run):
     """Displacements of gauges and free-field surfaces relative to the base of the left free field."""
     with open_history(run.folder) as file:
-        series, where = [], "relative to the base of the left free field, in total where there is none"
-        base = file["free_field/left/base_displacement"][...] if "free_field/left/base_displacement" in file else 0.0
+        series, base, where = [], 0.0, "in total, since there is no free field whose base it could be told from"
+        if "free_field/left/base_displacement" in file:
+            base, where = file["free_field/left/base_displacement"][...], "relative to the base of the left free field"
         if "gauges" in file:
             time, names, fields = plot_histories.read_gauges(file)
             series += [(label(name), time, fields["displacement"][:, k] - base) for k, name in enumerate(names)]

@@ -68,7 +68,7 @@ def lead(run):
         cards = [("trigger", plot_page.value(slide["trigger_time"], "s")),
                  ("moved area", f"{html.number(slide['moved_area'])} m²"),
                  ("moved mass", f"{html.number(slide['moved_mass'] / 1e3)} t/m"),
-                 ("its displacement", f"{html.number(float(np.hypot(*slide['centre_of_mass_displacement'])))} m"),
+                 ("mean displacement", f"{html.number(float(np.hypot(*slide['centre_of_mass_displacement'])))} m"),
                  ("toe advance", plot_page.value(slide["toe_advance"], "m")),
                  ("greatest velocity", f"{html.number(slide['peak_velocity']['value'])} m/s")]
     for name, motion in run.summary.get("motion", {}).items():
