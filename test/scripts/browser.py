@@ -2,12 +2,14 @@
 import base64
 import json
 import os
+import select
 import shutil
 import subprocess
 import tempfile
 import time
 
 NAMES = ("chromium", "chromium-browser", "google-chrome", "chrome")
+PATIENCE = 30  # s
 
 
 def found():
@@ -32,12 +34,17 @@ class Browser:
         os.close(from_browser)
         self.pending, self.count, self.session = b"", 0, None
         self.errors, self.requests, self.events = [], [], []
-        target = self.ask("Target.createTarget", url="about:blank")["targetId"]
-        self.session = self.ask("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
-        for domain in ("Page", "Runtime", "Log", "Network"):
-            self.ask(f"{domain}.enable")
 
     def __enter__(self):
+        """Opens the tab; a RuntimeError says why the browser does not start."""
+        try:
+            target = self.ask("Target.createTarget", url="about:blank")["targetId"]
+            self.session = self.ask("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
+            for domain in ("Page", "Runtime", "Log", "Network"):
+                self.ask(f"{domain}.enable")
+        except (RuntimeError, OSError) as reason:
+            self.__exit__()
+            raise RuntimeError(f"{found()} does not start: {reason}") from reason
         return self
 
     def __exit__(self, *_):
@@ -56,6 +63,8 @@ class Browser:
     def read(self):
         """The next message of the browser."""
         while b"\0" not in self.pending:
+            if not select.select([self.into], [], [], PATIENCE)[0]:
+                raise RuntimeError(f"the browser has said nothing for {PATIENCE} s")
             data = os.read(self.into, 1 << 20)
             if not data:
                 raise RuntimeError("the browser has ended")
@@ -92,10 +101,10 @@ class Browser:
         self.ask("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=phone)
         self.events.clear()
         self.ask("Page.navigate", url=path.resolve().as_uri())
-        until = time.monotonic() + 30
+        until = time.monotonic() + PATIENCE
         while "Page.loadEventFired" not in self.events:
             if time.monotonic() > until:
-                raise RuntimeError(f"{path} has not loaded in 30 s")
+                raise RuntimeError(f"{path} has not loaded in {PATIENCE} s")
             self.note(self.read())
 
     def value(self, script):

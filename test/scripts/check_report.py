@@ -207,8 +207,13 @@ def in_browser(folder, shaken):
     """(name, result) of what a browser shows of a report, and of a page with all faults at once."""
     names = ("A browser shows all of it, on a desk and on a phone, and asks for nothing else.", "It prints on A4.",
              "The browser's checks find a wide page, a missing picture, an error and a request.")
-    if not browser.found():
-        yield from ((name, "no Chromium is installed (Debian: chromium)") for name in names)
+    try:
+        if not browser.found():
+            raise RuntimeError("no Chromium is installed (Debian: chromium)")
+        with browser.Browser():
+            pass
+    except RuntimeError as reason:
+        yield from ((name, str(reason)) for name in names)
         return
     page, faulty = shaken / "report.html", folder / "faulty.html"
     faulty.write_text('<div style="width:3000px">wide</div><img src="http://localhost:9/x.png">'
