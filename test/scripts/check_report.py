@@ -252,6 +252,11 @@ def checks():
         yield "A run that has ended is reported whole, its rigid block beside it.", claims(
             code == 0, not said, "Not shown" not in page, "slip circle" in page, "Strength used" in page,
             f"{summary['slide']['trigger_time']:.2f} s" in page, all(warning in page for warning in summary["warnings"]))
+        applied, shown_as = summary["motion"]["horizontal"]["applied"], table_of(page, "PGA (g)")["outcrop"]
+        pairs = (("PGA (g)", applied["pga"] / 9.80665), ("at (s)", applied["pga_time"]), ("PGV (m/s)", applied["pgv"]),
+                 ("Arias (m/s)", applied["arias"]), ("D5-95 (s)", applied["d5_95"]))
+        yield "The outcrop motion has the measures that the program itself found, to half the last digit shown.", (
+            max(abs(float(shown_as[name]) - value) * 10 ** len(shown_as[name].partition(".")[2]) for name, value in pairs), 0.51)
         code, _ = reported(folder / "static")
         page = (folder / "static" / "report.html").read_text()
         yield "So is a static state.", claims(code == 0, "Stresses at the end" in page, "Not shown" not in page)
