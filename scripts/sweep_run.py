@@ -1,0 +1,142 @@
+"""How far the runs of a sweep are, and running what is left with a bounded number of processes.
+
+Beside the folder FOLDER of a run or static state stand FOLDER.exit, the exit code of its last command, and FOLDER.err, what
+that said. scripts/slurm/job.sbatch writes the same, so that it is all one where a run was done.
+"""
+import signal
+import subprocess
+import sys
+import threading
+from concurrent.futures import ThreadPoolExecutor
+
+from sweep_plan import command_of_run, commands_of_static
+
+INTERRUPTED = 75
+NOT_AGAIN = (80, 81)  # the same would come out: diverged, did not settle
+SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGUSR1, signal.SIGUSR2, signal.SIGXCPU)
+WORDS = {0: "done", 64: "wrong command", 65: "bad case, record or state", 66: "an input is missing", 70: "a bug of the program",
+         73: "its folder is taken", 74: "a write failed", 75: "interrupted", 80: "diverged", 81: "the static state did not settle",
+         None: "not run"}
+
+
+def beside(folder, ending):
+    """FOLDER.ending."""
+    return folder.with_name(folder.name + ending)
+
+
+def code_of(folder):
+    """Exit code of the last command of a folder; 0 once it is finished, None where nothing has ended yet."""
+    if (folder / "finished.json").exists():
+        return 0
+    try:
+        return int(beside(folder, ".exit").read_text())
+    except (OSError, ValueError):
+        return None
+
+
+def words_of(code):
+    """An exit code in words."""
+    return WORDS.get(code) or (f"killed by signal {code - 128}" if code > 128 else f"ended with {code}")
+
+
+def reason_of(folder):
+    """The last error that a command of the folder told, in one line; empty without one."""
+    try:
+        lines = [line.strip() for line in beside(folder, ".err").read_text(errors="replace").splitlines() if line.strip()]
+    except OSError:
+        return ""
+    errors = [line for line in lines if "error" in line.lower()]
+    return (errors or lines or [""])[-1]
+
+
+def left(folder):
+    """Whether a folder has to be run: it is neither finished nor has it ended in a way that would come again."""
+    code = code_of(folder)
+    return code is None or code not in (0, *NOT_AGAIN) or (code in NOT_AGAIN and not folder.exists())
+
+
+class Pool:
+    """Runs commands side by side; a signal ends all that run with a checkpoint, and starts no other."""
+
+    def __init__(self, jobs, environment):
+        self.jobs, self.environment = jobs, environment
+        self.running, self.stopped, self.lock = set(), False, threading.Lock()
+
+    def stop(self, number, _):
+        """Handler of a signal."""
+        with self.lock:
+            self.stopped = True
+            for process in self.running:
+                process.send_signal(signal.SIGTERM if number == signal.SIGINT else number)
+
+    def run(self, folder, command):
+        """Runs a command and notes its exit code and words; returns the code."""
+        folder.parent.mkdir(parents=True, exist_ok=True)
+        beside(folder, ".exit").unlink(missing_ok=True)
+        with open(beside(folder, ".err"), "wb") as said:
+            with self.lock:
+                if self.stopped:
+                    return INTERRUPTED
+                process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=said, stderr=said, env=self.environment)
+                self.running.add(process)
+            code = process.wait()
+        with self.lock:
+            self.running.discard(process)
+        code = code if code >= 0 else 128 - code
+        beside(folder, ".exit").write_text(f"{code}\n")
+        return code
+
+
+def tell(done, count, name, folder, code):
+    """One line of progress."""
+    reason = f": {reason_of(folder)}" if code else ""
+    print(f"sweep: {done}/{count} {name}: {words_of(code)}{reason}", file=sys.stderr, flush=True)
+
+
+def work(plan, out, jobs, environment):
+    """Runs what is left of the plan, static states before the runs that need them; returns whether it was interrupted."""
+    pool, count, done = Pool(jobs, environment), len(plan["runs"]), 0
+    before = {number: signal.signal(number, pool.stop) for number in SIGNALS
+              if signal.getsignal(number) is not signal.SIG_IGN}  # as SIGHUP under nohup
+
+    def state(digest):
+        """Exit code of a static state, computed if need be."""
+        folder, command = commands_of_static(plan, out, digest)
+        code = pool.run(folder, command) if left(folder) else code_of(folder)
+        if code:
+            tell("static", len(plan["statics"]), digest, folder, code)
+        return code
+
+    def shake(run):
+        """Runs one, after its static state; one that failed is told with the run."""
+        nonlocal done
+        folder, command = command_of_run(plan, out, run)
+        if not left(folder):
+            code = code_of(folder)
+        elif run["static"] and states[run["static"]].result():
+            return
+        else:
+            code = pool.run(folder, command)
+        done += 1
+        if not (pool.stopped and code == INTERRUPTED):
+            tell(done, count, run["name"], folder, code)
+
+    needed = {run["static"] for run in plan["runs"] if run["static"] and left(command_of_run(plan, out, run)[0])}
+    with ThreadPoolExecutor(jobs) as workers:
+        states = {digest: workers.submit(state, digest) for digest in plan["statics"] if digest in needed}
+        for future in [workers.submit(shake, run) for run in plan["runs"]]:
+            future.result()
+    for number, handler in before.items():
+        signal.signal(number, handler)
+    return pool.stopped
+
+
+def codes(plan, out):
+    """Exit code of every run by its name; that of its static state where that has failed."""
+    found = {}
+    for run in plan["runs"]:
+        code = code_of(command_of_run(plan, out, run)[0])
+        if code is None and run["static"]:
+            code = code_of(commands_of_static(plan, out, run["static"])[0]) or None
+        found[run["name"]] = code
+    return found
