@@ -24,7 +24,7 @@ from matplotlib.ticker import FuncFormatter
 
 from options import Parser
 from plot_common import read_summary, save
-from resolved_case import PROGRAMS, Refused, number_and_unit, options_of, program, resolve, setting
+from resolved_case import PROGRAMS, Refused, first_state, number_and_unit, options_of, program, resolve, setting
 
 FIRM = 0.1  # the factor of the trial that displacements count from: hardly anything yields
 STEP = 1.25  # of the factor while both ends are sought
@@ -107,40 +107,16 @@ class Search:
             raise Refused(65, f"{given.case}: all materials are elastic, so nothing can fail")
         if not weakened(self.case["materials"], 1.0):
             raise Refused(65, f"{given.case}: no strength to reduce in {', '.join(self.strong)}")
-        self.settings, self.trials = {}, []
-        depth, self.height = self.outline()
+        options = options_of(given.profile, self.own)
+        depth, self.height = shape_of(first_state(given.programs, given.case, self.case, options, given.out / "outline"))
         if self.height <= 0.0:
             raise Refused(65, f"{given.case}: the ground is level; a factor of safety is of a slope")
         self.settings, self.factor = stiffened(self.case, depth, self.height)
-        self.claim()
+        self.trials = []
         code, folder = self.run(FIRM)
         if code:
             raise Refused(code, f"{folder}: the ground does not settle with {1 / FIRM:g} times its strength")
         self.firm = self.positions(folder)
-
-    def claim(self):
-        """Notes of which case the trials in the folder are; refused where they are of another one."""
-        path = self.given.out / "case.json"
-        now = json.dumps({"case": self.case, "settings": self.settings}, indent=1, sort_keys=True) + "\n"
-        if path.exists() and path.read_text() != now:
-            raise Refused(73, f"{self.given.out} holds the trials of another case or setting; give another --out")
-        path.write_text(now)
-
-    def outline(self):
-        """Depth and height of the ground, from the first state of a static stage that is stopped at once."""
-        folder = self.given.out / "outline"
-        state = self.newest(folder)
-        if state is None:
-            code = self.start(folder, {}, ["--max-wall", "0.001s", "--quiet"])
-            state = self.newest(folder)
-            if state is None:
-                raise Refused(code or 70, f"{folder}: no state was left")
-        return shape_of(state)
-
-    @staticmethod
-    def newest(folder):
-        """final.h5 or a checkpoint of a folder, None without one."""
-        return next(iter([*folder.glob("final.h5"), *folder.glob("checkpoint-*.h5")]), None)
 
     def start(self, folder, settings, more=()):
         """Runs mpm-static in a folder; its exit code. What it says stands in FOLDER.err."""

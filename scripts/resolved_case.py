@@ -2,6 +2,7 @@
 
 `mpm-static CASE --print-case` says it; what a script changes in a case it gives back by `--set`.
 """
+import json
 import subprocess
 import sys
 from pathlib import Path
@@ -61,3 +62,25 @@ def number_and_unit(value):
         return float(number), unit.strip()
     except ValueError:
         raise Refused(65, f"'{value}' is no number with a unit, such as 64 kPa") from None
+
+
+def first_state(programs, case, resolved, options, folder):
+    """Path of the first state of a case's ground, in a folder that a stage was stopped in at once.
+
+    It holds the ground as the programs see it, whatever draws its surfaces. `resolved` is the case as `resolve` gives it; it is
+    kept beside the folder, and another one is refused.
+    """
+    kept, words = folder.with_name(folder.name + ".json"), json.dumps(resolved, indent=1) + "\n"
+    if kept.exists() and kept.read_text() != words:
+        raise Refused(73, f"{folder.parent} holds results of another case or setting; give another --out")
+    find = lambda: next(iter([*folder.glob("final.h5"), *folder.glob("checkpoint-*.h5")]), None)
+    if find() is None:
+        weightless = number_and_unit(resolved["static"]["gravity"])[0] == 0.0
+        command = [program(programs, "mpm-seismic" if weightless else "mpm-static"), case, "--out", folder, *options,
+                   "--max-wall", "0.001s", "--quiet"]
+        folder.parent.mkdir(parents=True, exist_ok=True)
+        done = subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False)
+        kept.write_text(words)
+        if find() is None:
+            raise Refused(done.returncode or 70, done.stderr.strip() or f"{folder}: no state was left")
+    return find()
