@@ -10,6 +10,7 @@ nothing twice; more records or factors are added to what is there. A run that fa
 when it was interrupted, otherwise that of the first run that failed.
 """
 import argparse
+import fcntl
 import os
 import shlex
 import sys
@@ -93,13 +94,18 @@ def main():
         if given.list:
             list_commands(plan, given.out)
             return 0
-        if given.slurm and sweep_slurm.alive(given.out):
-            raise Refused(73, f"{given.out}: jobs of it wait or run (squeue); let them end, or scancel them")
-        plan = sweep_plan.store(plan, given.out)
-        if given.slurm:
-            sweep_slurm.send(plan, given.out, given)
-            return 0
-        return run_here(plan, given)
+        sweep_slurm.refuse_while_alive(given.out)
+        given.out.mkdir(parents=True, exist_ok=True)
+        with open(given.out / ".lock", "w") as lock:
+            try:
+                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError:
+                raise Refused(73, f"{given.out}: another scripts/sweep is at work there; let it end") from None
+            plan = sweep_plan.store(plan, given.out)
+            if given.slurm:
+                sweep_slurm.send(plan, given.out, given)
+                return 0
+            return run_here(plan, given)
     except Refused as reason:
         print(f"sweep: {reason}", file=sys.stderr)
         return reason.code

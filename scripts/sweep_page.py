@@ -99,7 +99,7 @@ def draw_curves(rows, curves, confidence):
         if not done.all():
             axis.plot(values[~done], np.full((~done).sum(), 0.5), "x", color=LOST, label="run without a result")
         if told["curve"]:
-            x = np.geomspace(*axis.get_xlim(), 60)
+            x = np.geomspace(*axis.get_xlim(), 100)
             low, high = fragility.band(told["curve"], x, confidence)
             axis.fill_between(x, low, high, color=OURS, alpha=0.2, lw=0, label=f"{100 * confidence:g} %, likelihood")
             axis.plot(x, told["curve"].probability(x), color=OURS, lw=1.5, label="most likely")
@@ -140,6 +140,27 @@ def table(columns, rows):
     return f"<div class=wide><table><tr>{head}</tr>{''.join(lines)}</table></div>"
 
 
+def table_of_curves(curves, confidence):
+    """The fragility curves in numbers."""
+    def limits(told, name, ending=""):
+        """LOW to HIGH of a parameter, empty where they are not known."""
+        low, high = told.get(f"{name}_low{ending}"), told.get(f"{name}_high{ending}")
+        return "" if low is None else f"{low:.3g} to {high:.3g}"
+
+    share = f"{100 * confidence:g} %"
+    head = "".join(f"<th>{words}</th>" for words in ("failure", "intensity", "failed", "median", share, f"{share}, by records", "β", share,
+                                                     f"{share}, by records"))
+    lines = []
+    for curve in curves:
+        cells = [curve["limit"], label_of(curve["intensity"]), f"{curve['failures']} of {curve['runs']}"]
+        if curve["curve"]:
+            cells += [f"{curve['median']:.3g}", limits(curve, "median"), limits(curve, "median", "_records"), f"{curve['beta']:.2f}",
+                      limits(curve, "beta"), limits(curve, "beta", "_records")]
+        row = "".join(f"<td>{html.escape(cell)}</td>" for cell in cells)
+        lines.append(f"<tr>{row}{'' if curve['curve'] else '<td colspan=6>' + html.escape(curve['why_not']) + '</td>'}</tr>")
+    return f"<div class=wide><table><tr>{head}</tr>{''.join(lines)}</table></div>"
+
+
 def write(given, plan, rows, names, curves):
     """Writes DIR/summary.html and the pictures in it."""
     pictures = given.folder / "pictures"
@@ -154,11 +175,13 @@ def write(given, plan, rows, names, curves):
         parts.append("<h2>Fragility</h2>")
         shown = [told for told in curves if told["intensity"] in drawn]
         parts.append(picture(draw_curves(rows, shown, given.confidence), pictures / "fragility.png", "fragility curves"))
-    parts += [f"<p>{html.escape(words_of(told, given.confidence))}</p>" for told in curves]
+    parts.append(table_of_curves(curves, given.confidence))
     parts.append("<p>Intervals of the likelihood take runs for independent; those by records draw whole records, so that one record at "
                  "several scales counts once. Runs without a result (×) are in no curve.</p><h2>Runs</h2>")
+    parts += [f"<p class=lost>{html.escape(row['run'])}: {html.escape(row['state'])}. {html.escape(row['reason'])}</p>"
+              for row in rows if row["exit"] != 0]
     parts.append(table(["run", "scale", "state", *drawn, "displacement", "toe_advance", "moved_area", "trigger_time",
-                        "newmark_displacement", "newmark_trigger", "reason"], rows))
+                        "newmark_displacement", "newmark_trigger"], rows))
     page = f"<!doctype html><html lang=en><meta charset=utf-8><meta name=viewport content='width=device-width'>" \
            f"<title>{html.escape(given.folder.resolve().name)}</title><style>{STYLE}</style><body>{''.join(parts)}</body></html>\n"
     (given.folder / "summary.html").write_text(page, encoding="utf-8")

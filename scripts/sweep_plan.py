@@ -31,7 +31,11 @@ def read_table(path):
         if wrong or not headings:
             raise Refused(65, f"{path}: column '{wrong[0] if wrong else ''}' is none of {', '.join(sorted(COLUMNS))}, nor a key "
                           "of the case such as materials.clay.strength.peak")
-        rows = [{heading: (value or "").strip() for heading, value in zip(headings, row.values())} for row in reader]
+        read_rows = list(reader)
+        long = next((number for number, row in enumerate(read_rows, 1) if None in row), None)
+        if long:
+            raise Refused(65, f"{path}: row {long} has more values than the table has columns")
+        rows = [{heading: (value or "").strip() for heading, value in zip(headings, row.values())} for row in read_rows]
     return [row_as_run(path, number, row) for number, row in enumerate(rows, 1)]
 
 
@@ -194,7 +198,6 @@ def store(plan, out):
                           "changed. Give another --out")
         known = {run["name"] for run in old["runs"]}
         plan = {**plan, "runs": old["runs"] + [run for run in plan["runs"] if run["name"] not in known]}
-    Path(out).mkdir(parents=True, exist_ok=True)
     whole = path.with_name("sweep.json.part")
     whole.write_text(json.dumps(plan, indent=1) + "\n")
     whole.replace(path)

@@ -19,13 +19,20 @@ MOST_TASKS = 1000  # of an array: Slurm's MaxArraySize is 1001 unless the admini
 def alive(out):
     """Ids of the sweep's jobs that wait or run."""
     path = Path(out) / "slurm" / "jobs.json"
-    if not path.exists():
+    if not path.exists() or not shutil.which("squeue"):
         return []
     queued = subprocess.run(["squeue", "--noheader", "--user", getpass.getuser(), "--format", "%A %F"], capture_output=True,
                             text=True, check=False)
     if queued.returncode:
         raise Refused(queued.returncode, f"squeue: {queued.stderr.strip()}")
     return sorted(set(json.loads(path.read_text())) & set(queued.stdout.split()))
+
+
+def refuse_while_alive(out):
+    """Refuses to touch a sweep whose jobs wait or run."""
+    jobs = alive(out)
+    if jobs:
+        raise Refused(73, f"{out}: its jobs {' '.join(jobs)} wait or run (squeue); let them end, or scancel them")
 
 
 def submit(given, out, name, words, after=(), kind="afterok", at_once=""):
@@ -50,8 +57,6 @@ def send(plan, out, given):
         raise Refused(66, "sbatch is missing: this machine is no part of a cluster with Slurm; leave --slurm out to run here")
     folder = Path(out).resolve() / "slurm"
     folder.mkdir(parents=True, exist_ok=True)
-    if alive(out):
-        raise Refused(73, f"{out}: its jobs {' '.join(alive(out))} wait or run (squeue); let them end, or scancel them")
     jobs, ends = [], []
 
     def note(job, is_end):

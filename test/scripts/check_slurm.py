@@ -1,8 +1,9 @@
 """Checks a sweep on a real Slurm (slurm_cluster.py), or says why it was skipped; prints 'N passed, N failed'.
 
-One sweep goes through all that a cluster does to a job: a job of a better partition takes its nodes, one of them dies, and its runs
-take longer than the time limit gives them. What comes out equals a run on this machine, bit for bit.
+A sweep goes through what a cluster does to its jobs: a job of a better partition takes its nodes, and one of them dies. What comes out
+equals a run on this machine, bit for bit. A run that is submitted by hand comes to its time limit, goes on, and is cancelled.
 """
+import json
 import os
 import subprocess
 import sys
@@ -19,8 +20,11 @@ from slurm_cluster import Cluster, Unavailable, wait_for
 ROOT = Path(__file__).resolve().parent.parent.parent
 PROGRAMS = Path(sys.argv[1]) if len(sys.argv) > 1 else ROOT / "build"
 CASE = ROOT / "cases" / "first" / "case.yaml"
-SETTINGS = ["grid.spacing=2 m", "seismic.duration=90 s", "output.frames.every=90 s", "output.checkpoint.every=1 s"]
-LIMIT = ["--sbatch=--time=1", "--warn=54"]  # Slurm counts in minutes: warned 6 s after the start, at the latest
+JOB = ROOT / "scripts" / "slurm" / "job.sbatch"
+SETTINGS = ["grid.spacing=2 m", "output.frames.every=10000 s", "output.checkpoint.every=1 s"]
+# Slurm counts in minutes, looks every 30 s, and warns a job that it might not find in time otherwise: at its first look.
+LIMIT = ["--time=1", "--signal=B:USR1@50"]
+LONG = 11  # s, that a run of the sweep takes: some 4 until it is preempted, and a rest
 
 
 def sweep(folder, *words):
@@ -41,38 +45,62 @@ def make_records(folder):
     (folder / "records" / "junk.AT2").write_text("no record\n")
 
 
-def log_of(folder, name):
+def be_long(folder):
+    """Sets the duration of the runs to what this machine does in about LONG seconds."""
+    tried = folder / "tried"
+    words = ["--set", SETTINGS[0], "--quiet"]
+    for command in (["mpm-static", CASE, "--out", tried / "static"],
+                    ["mpm-seismic", CASE, "--out", tried / "run", "--from", tried / "static" / "final.h5", "--max-wall", "2s",
+                     "--set", "seismic.duration=1000 s"]):
+        subprocess.run([str(word) for word in [PROGRAMS / command[0], *command[1:], *words]], check=False, capture_output=True)
+    reached = json.loads((tried / "run" / "summary.json").read_text())["time"]
+    SETTINGS.append(f"seismic.duration={0.5 * LONG * reached:.0f} s")
+
+
+def by_hand(folder):
+    """Submits a run that would take minutes to a node of its own, as one does without scripts/sweep; its id."""
+    words = [JOB, PROGRAMS / "mpm-seismic", CASE, "--out", folder / "by-hand", "--from", folder / "tried" / "static" / "final.h5",
+             "--set", SETTINGS[0], "--set", SETTINGS[1], "--set", "seismic.duration=9000 s"]
+    done = subprocess.run(["sbatch", "--parsable", "--partition=apart", "--output=/dev/null", *LIMIT, *map(str, words)],
+                          capture_output=True, text=True, check=True)
+    return done.stdout.strip()
+
+
+def log_of(run):
     """The log of a run."""
-    path = folder / "sweep" / "runs" / name / "log.txt"
+    path = run / "log.txt"
     return path.read_text() if path.exists() else ""
 
 
-def starts(folder, name):
+def starts(run):
     """How often a run was started."""
-    return log_of(folder, name).count("mpm-seismic ")
+    return log_of(run).count("mpm-seismic ")
 
 
-def stops(folder, name):
-    """How often it was told to stop, and did: by the job that took its node, and before the time limit."""
-    return log_of(folder, name).count("the same command goes on")
+def stops(run):
+    """How often it was told to stop, and did."""
+    return log_of(run).count("the same command goes on")
 
 
-def checkpointed(folder, name):
+def checkpointed(run):
     """Whether a run has left a checkpoint."""
-    return any((folder / "sweep" / "runs" / name).glob("checkpoint-*.h5"))
+    return any(run.glob("checkpoint-*.h5"))
 
 
 def live_through(folder, cluster):
     """Submits the sweep and does to it what clusters do; what was seen on the way."""
-    seen = {"submitted": sweep(folder, "--slurm", *LIMIT)}
-    seen["twice"] = sweep(folder, "--slurm", *LIMIT)
-    wait_for(lambda: checkpointed(folder, "a") and checkpointed(folder, "b"), 60, "two runs on the way")
+    a, b = (folder / "sweep" / "runs" / name for name in "ab")
+    job = by_hand(folder)
+    seen = {"submitted": sweep(folder, "--slurm"), "twice": sweep(folder, "--slurm")}
+    wait_for(lambda: checkpointed(a) and checkpointed(b), 60, "two runs on the way")
     subprocess.run(["sbatch", "--partition=high", "--exclusive", "--nodes=2", "--output=/dev/null", "--wrap", "sleep 1"], check=True,
                    capture_output=True)
-    wait_for(lambda: starts(folder, "a") >= 2 and checkpointed(folder, "a"), 60, "run a goes on")
+    wait_for(lambda: starts(a) >= 2 and checkpointed(a), 60, "run a goes on")
     wait_for(lambda: "RUNNING" in cluster.ask("squeue", "-h", "-w", "n1", "-o", "%T"), 60, "a job on n1")
-    seen["lost"] = cluster.ask("squeue", "-h", "-w", "n1", "-o", "%j %K")
     cluster.kill_node("n1")
+    wait_for(lambda: "goes on from" in log_of(folder / "by-hand"), 60, "the run by hand goes on")
+    time.sleep(1.0)  # into its steps
+    subprocess.run(["scancel", job], check=True)
     wait_for(lambda: (folder / "sweep" / "summary.csv").exists() and not cluster.ask("squeue", "-h", "-o", "%i"), 90, "the summary")
     return seen
 
@@ -102,6 +130,7 @@ def checks():
     with tempfile.TemporaryDirectory() as path:
         folder = Path(path)
         make_records(folder)
+        be_long(folder)
         with Cluster() as cluster:
             print(f"Slurm is up after {time.monotonic() - began:.1f} s", flush=True)
             seen = live_through(folder, cluster)
@@ -110,11 +139,13 @@ def checks():
             table = (folder / "sweep" / "summary.csv").read_text()
             yield "two runs are done, and the one without a record is told", count(table.count(",0,done,") == 2,
                                                                                   ",65," in table, "not a record" in table)
-            yield "they were preempted, and went on", count(*(starts(folder, name) >= 2 and stops(folder, name) >= 1 for name in "ab"))
-            yield "one lost its node, and went on", count(any(starts(folder, name) > stops(folder, name) + 1 for name in "ab"),
-                                                          seen["lost"] != "")
-            yield "and stopped before their time limit, and went on", count(any(stops(folder, name) >= 2 for name in "ab"))
-            again = sweep(folder, "--slurm", *LIMIT)
+            runs = [folder / "sweep" / "runs" / name for name in "ab"]
+            yield "they were preempted, and went on", count(*(starts(run) >= 2 and stops(run) >= 1 for run in runs))
+            yield "one lost its node, and went on", count(any(starts(run) > stops(run) + 1 for run in runs))
+            alone = folder / "by-hand"
+            yield "a run by hand stopped before its time limit, went on, and ended when it was cancelled", count(
+                starts(alone) == 2, stops(alone) == 2, alone.with_name("by-hand.exit").read_text() == "75\n")
+            again = sweep(folder, "--slurm")
             yield "what is done is not submitted again", count("1 runs are left" in again.stdout)
         yield "as if nothing had happened", same(folder, "a")
     print(f"{time.monotonic() - began:.0f} s")

@@ -1,7 +1,8 @@
-"""A Slurm of two nodes on this machine for a test: munged, slurmctld and two slurmd, in a folder of their own.
+"""A Slurm of three nodes on this machine for a test: munged, slurmctld and three slurmd, in a folder of their own.
 
 Debian's packages slurmctld, slurmd, slurm-client and munge; it takes root, and ends all that it started. On the nodes n1 and
-n2, of one processor each, jobs of the partition `high` preempt those of `low`, which are warned with SIGUSR1 and queued again.
+n2, of one processor each, jobs of the partition `high` preempt those of `low`, which are warned with SIGUSR1 and queued again;
+n3 is the partition `apart`.
 """
 import os
 import shutil
@@ -12,7 +13,7 @@ import tempfile
 import time
 from pathlib import Path
 
-NODES = ("n1", "n2")
+NODES = ("n1", "n2", "n3")
 PROGRAMS = ("munged", "slurmctld", "slurmd", "sbatch", "scontrol", "squeue", "sinfo")
 SETTINGS = """ClusterName=test
 SlurmctldHost={host}(127.0.0.1)
@@ -41,8 +42,10 @@ SlurmctldParameters=preempt_send_user_signal
 CommunicationParameters=NoInAddrAny,NoCtldInAddrAny
 NodeName=n1 NodeHostname={host} NodeAddr=127.0.0.1 Port={ports[1]} CPUs=1
 NodeName=n2 NodeHostname={host} NodeAddr=127.0.0.1 Port={ports[2]} CPUs=1
+NodeName=n3 NodeHostname={host} NodeAddr=127.0.0.1 Port={ports[3]} CPUs=1
 PartitionName=low Nodes=n1,n2 Default=YES PriorityTier=1 GraceTime=10
 PartitionName=high Nodes=n1,n2 PriorityTier=10
+PartitionName=apart Nodes=n3
 """
 
 
@@ -99,7 +102,7 @@ class Cluster:
         key.write_bytes(os.urandom(128))
         key.chmod(0o400)
         (folder / "state").mkdir()
-        (folder / "slurm.conf").write_text(SETTINGS.format(folder=folder, host=host, ports=free_ports(3)))
+        (folder / "slurm.conf").write_text(SETTINGS.format(folder=folder, host=host, ports=free_ports(1 + len(NODES))))
         os.environ["SLURM_CONF"] = str(folder / "slurm.conf")
         version = subprocess.run(["sinfo", "--version"], capture_output=True, text=True, check=True).stdout.split()[-1]
         plugin = "cgroup/v1" if version < "24" else "disabled"  # one is loaded, though none is used
@@ -110,7 +113,7 @@ class Cluster:
         self.spawn("slurmctld", "-D")
         for node in NODES:
             self.start_node(node)
-        wait_for(lambda: self.ask("sinfo", "-h", "-o", "%T %D") == "idle 2", 30, "idle nodes")
+        wait_for(lambda: self.ask("sinfo", "-h", "-N", "-o", "%N %T").count("idle") == len(NODES), 30, "idle nodes")
 
     def spawn(self, name, *words, key=None):
         """Starts a daemon in the foreground, in a session of its own."""
@@ -123,7 +126,7 @@ class Cluster:
 
     @staticmethod
     def ask(*words):
-        """What a command prints on each of its lines, the partition's line counted once."""
+        """The lines that a command prints, each of them once."""
         said = subprocess.run(words, capture_output=True, text=True, check=False).stdout
         return "\n".join(dict.fromkeys(line.strip() for line in said.splitlines()))
 
