@@ -12,7 +12,6 @@ Exit code: that of the program where a trial could not be run.
 """
 import argparse
 import json
-import subprocess
 import sys
 from math import atan, sqrt, tan
 from pathlib import Path
@@ -25,6 +24,7 @@ from matplotlib.ticker import FuncFormatter
 from options import Parser
 from plot_common import read_summary, save
 from resolved_case import PROGRAMS, Refused, first_state, number_and_unit, options_of, program, resolve, setting
+from sweep_run import INTERRUPTED, Pool, reason_of
 
 FIRM = 0.1  # the factor of the trial that displacements count from: hardly anything yields
 STEP = 1.25  # of the factor while both ends are sought
@@ -97,9 +97,9 @@ def shape_of(state):
 class Search:
     """The trials of a case."""
 
-    def __init__(self, given):
+    def __init__(self, given, pool):
         """Reads the case and finds the ground's shape and the state that displacements count from."""
-        self.given = given
+        self.given, self.pool = given, pool
         self.own = dict(setting(assignment) for assignment in given.set)
         self.case = resolve(given.programs, given.case, options_of(given.profile, self.own))
         self.strong = [name for name, material in self.case["materials"].items() if material["model"] != "elastic"]
@@ -118,27 +118,18 @@ class Search:
             raise Refused(code, f"{folder}: the ground does not settle with {1 / FIRM:g} times its strength")
         self.firm = self.positions(folder)
 
-    def start(self, folder, settings, more=()):
-        """Runs mpm-static in a folder; its exit code. What it says stands in FOLDER.err."""
-        folder.parent.mkdir(parents=True, exist_ok=True)
-        command = [str(program(self.given.programs, "mpm-static")), str(self.given.case), "--out", str(folder),
-                   *options_of(self.given.profile, {**self.own, **settings}), *more]
-        command += ["--threads", self.given.threads] if self.given.threads else []
-        said = folder.with_name(folder.name + ".err")
-        with open(said, "wb") as file:
-            code = subprocess.run(command, stderr=file, check=False).returncode
-        if code not in (0, 75, 81):
-            raise Refused(code, f"{folder}: mpm-static ended with {code}: {said.read_text(errors='replace').strip()[-600:]}")
-        return code
-
     def run(self, factor):
         """A trial that has ended: exit code 0 or 81, and its folder."""
         folder = self.given.out / f"F-{factor:.4f}"
         code = read_summary(folder).get("exit")
         if code not in (0, 81):
-            code = self.start(folder, {**self.settings, **weakened(self.case["materials"], factor)}, ["--quiet"])
-        if code == 75:
-            raise Refused(75, "interrupted; the same command goes on")
+            settings = {**self.own, **self.settings, **weakened(self.case["materials"], factor)}
+            code = self.pool.run(folder, [program(self.given.programs, "mpm-static"), self.given.case, "--out", folder, "--quiet",
+                                          *options_of(self.given.profile, settings)])
+        if code == INTERRUPTED:
+            raise Refused(code, "interrupted; the same command goes on")
+        if code not in (0, 81):
+            raise Refused(code, f"{folder}: {reason_of(folder)}")
         return code, folder
 
     @staticmethod
@@ -205,21 +196,27 @@ def draw(search, low, high, out):
     save(figure, out, "Factor of safety")
 
 
+def find(given, pool):
+    """Searches, stores, prints."""
+    search = Search(given, pool)
+    if search.factor > 1.0:
+        print(f"the ground is made {search.factor:.3g} times as stiff for the search")
+    low, high = bracket(search.stands, given.tolerance)
+    found = 0.5 * (low + high) if low and high else None
+    result = {"factor_of_safety": found, "stands": low, "fails": high, "height": search.height, "gone": given.gone,
+              "stiffness": search.factor, "trials": sorted(search.trials, key=lambda trial: trial["factor"])}
+    (given.out / "factor-of-safety.json").write_text(json.dumps(result, indent=1) + "\n")
+    draw(search, low, high, given.out / "factor-of-safety.png")
+    print(f"factor of safety {found:.3f}: stands at {low:.3f}, fails at {high:.3f}" if found else
+          f"no factor of safety: it {'stands' if low else 'fails'} at all factors from {FEWEST:g} to {MOST:g}")
+
+
 def main():
-    """Searches, stores, prints; returns the exit code."""
+    """Carries out the command line; returns the exit code."""
     given = parse_arguments(sys.argv[1:])
     try:
-        search = Search(given)
-        if search.factor > 1.0:
-            print(f"the ground is made {search.factor:.3g} times as stiff for the search")
-        low, high = bracket(search.stands, given.tolerance)
-        found = 0.5 * (low + high) if low and high else None
-        result = {"factor_of_safety": found, "stands": low, "fails": high, "height": search.height, "gone": given.gone,
-                  "stiffness": search.factor, "trials": sorted(search.trials, key=lambda trial: trial["factor"])}
-        (given.out / "factor-of-safety.json").write_text(json.dumps(result, indent=1) + "\n")
-        draw(search, low, high, given.out / "factor-of-safety.png")
-        print(f"factor of safety {found:.3f}: stands at {low:.3f}, fails at {high:.3f}" if found else
-              f"no factor of safety: it {'stands' if low else 'fails'} at all factors from {FEWEST:g} to {MOST:g}")
+        with Pool(given.threads) as pool:
+            find(given, pool)
         return 0
     except Refused as reason:
         print(f"factor-of-safety: {reason}", file=sys.stderr)

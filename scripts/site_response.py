@@ -11,7 +11,6 @@ DIR/site-response.png. Repeated, the command goes on where it was interrupted.
 """
 import argparse
 import json
-import subprocess
 import sys
 from pathlib import Path
 
@@ -24,6 +23,7 @@ from options import Parser
 from plot_common import Missing, array, group_of, open_history, read_summary, save, text
 from plot_histories import read_gauges, read_motion
 from resolved_case import PROGRAMS, Refused, first_state, number_and_unit, options_of, program, resolve, setting
+from sweep_run import INTERRUPTED, Pool, reason_of
 
 CELLS = 8  # width of the strip
 MOST_GAUGES = 60  # down the profile
@@ -40,7 +40,7 @@ def parse_arguments(given):
     parser.add_argument("--scale", type=float, metavar="F", help="factor on the motion")
     parser.add_argument("--profile", default="", metavar="NAME")
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE")
-    parser.add_argument("--threads", metavar="N")
+    parser.add_argument("--threads", default="", metavar="N")
     parser.add_argument("--programs", type=Path, default=PROGRAMS, metavar="DIR", help="their folder; default: that of the build")
     return parser.parse_args(given)
 
@@ -99,11 +99,12 @@ def shake(given, case, weightless):
     for option in ("motion", "scale"):
         if getattr(given, option) is not None:
             commands[-1] += [f"--{option}", getattr(given, option)]
-    for command in commands:
-        command = [program(given.programs, command[0]), *command[1:], "--quiet"] + (["--threads", given.threads] if given.threads else [])
-        code = subprocess.run([str(word) for word in command], check=False).returncode
-        if code:
-            raise Refused(code, f"{command[0].name} ended with {code}" + ("; the same command goes on" if code == 75 else ""))
+    with Pool(given.threads) as pool:
+        for name, *words in commands:
+            folder = words[words.index("--out") + 1]
+            code = pool.run(folder, [program(given.programs, name), *words, "--quiet"])
+            if code:
+                raise Refused(code, "interrupted; the same command goes on" if code == INTERRUPTED else f"{folder}: {reason_of(folder)}")
     return given.out / "run"
 
 

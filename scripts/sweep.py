@@ -79,7 +79,7 @@ def run_here(plan, given):
     """Runs what is left on this machine and sums up; returns the exit code."""
     from sweep_summary import summarise  # matplotlib takes its time
     jobs = given.jobs or len(os.sched_getaffinity(0))
-    interrupted = sweep_run.work(plan, given.out, jobs, {**os.environ, "OMP_NUM_THREADS": str(given.threads or 1)})
+    interrupted = sweep_run.work(plan, given.out, jobs, given.threads or 1)
     if interrupted:
         print("sweep: interrupted; the same command goes on", file=sys.stderr)
         return sweep_run.INTERRUPTED

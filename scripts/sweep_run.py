@@ -3,6 +3,7 @@
 Beside the folder FOLDER of a run or static state stand FOLDER.exit, the exit code of its last command, and FOLDER.err, what
 that said. scripts/slurm/job.sbatch writes the same, so that it is all one where a run was done.
 """
+import os
 import signal
 import subprocess
 import sys
@@ -56,18 +57,29 @@ def left(folder):
 
 
 class Pool:
-    """Runs commands side by side; a signal ends all that run with a checkpoint, and starts no other."""
+    """A context in which commands run, side by side if need be; a signal ends all that run with a checkpoint, and starts no other."""
 
-    def __init__(self, jobs, environment):
-        self.jobs, self.environment = jobs, environment
-        self.running, self.stopped, self.lock = set(), False, threading.Lock()
+    def __init__(self, threads=""):
+        """threads: of each command, as text; empty: as the environment says."""
+        self.environment = {**os.environ, "OMP_NUM_THREADS": str(threads)} if threads else None
+        self.running, self.stopped, self.lock = set(), False, threading.RLock()
 
-    def stop(self, number, _):
+    def __enter__(self):
+        """Takes the signals that are not ignored, as SIGHUP is under nohup."""
+        self.before = {number: signal.signal(number, self.stop) for number in SIGNALS if signal.getsignal(number) is not signal.SIG_IGN}
+        return self
+
+    def __exit__(self, *_):
+        """Gives them back."""
+        for number, handler in self.before.items():
+            signal.signal(number, handler)
+
+    def stop(self, *_):
         """Handler of a signal."""
         with self.lock:
             self.stopped = True
             for process in self.running:
-                process.send_signal(signal.SIGTERM if number == signal.SIGINT else number)
+                process.send_signal(signal.SIGTERM)
 
     def run(self, folder, command):
         """Runs a command and notes its exit code and words; returns the code."""
@@ -77,8 +89,11 @@ class Pool:
             with self.lock:
                 if self.stopped:
                     return INTERRUPTED
-                process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=said, stderr=said, env=self.environment)
+                process = subprocess.Popen([str(word) for word in command], stdin=subprocess.DEVNULL, stdout=said, stderr=said,
+                                           env=self.environment)
                 self.running.add(process)
+                if self.stopped:  # just now, by a signal to this very thread
+                    process.send_signal(signal.SIGTERM)
             code = process.wait()
         with self.lock:
             self.running.discard(process)
@@ -93,22 +108,27 @@ def tell(done, count, name, folder, code):
     print(f"sweep: {done}/{count} {name}: {words_of(code)}{reason}", file=sys.stderr, flush=True)
 
 
-def work(plan, out, jobs, environment):
+def work(plan, out, jobs, threads):
     """Runs what is left of the plan, static states before the runs that need them; returns whether it was interrupted."""
-    pool, count, done = Pool(jobs, environment), len(plan["runs"]), 0
-    before = {number: signal.signal(number, pool.stop) for number in SIGNALS
-              if signal.getsignal(number) is not signal.SIG_IGN}  # as SIGHUP under nohup
+    with Pool(threads) as pool:
+        work_in(pool, plan, out, jobs)
+    return pool.stopped
+
+
+def work_in(pool, plan, out, jobs):
+    """What `work` does, in a pool, `jobs` commands at a time."""
+    count, done = len(plan["runs"]), 0
 
     def state(digest):
         """Exit code of a static state, computed if need be."""
         folder, command = commands_of_static(plan, out, digest)
         code = pool.run(folder, command) if left(folder) else code_of(folder)
-        if code:
+        if code and not pool.stopped:
             tell("static", len(plan["statics"]), digest, folder, code)
         return code
 
     def shake(run):
-        """Runs one, after its static state; one that failed is told with the run."""
+        """Runs one, after its static state; one whose static state has failed is told with that."""
         nonlocal done
         folder, command = command_of_run(plan, out, run)
         if not left(folder):
@@ -126,17 +146,17 @@ def work(plan, out, jobs, environment):
         states = {digest: workers.submit(state, digest) for digest in plan["statics"] if digest in needed}
         for future in [workers.submit(shake, run) for run in plan["runs"]]:
             future.result()
-    for number, handler in before.items():
-        signal.signal(number, handler)
-    return pool.stopped
 
 
-def codes(plan, out):
-    """Exit code of every run by its name; that of its static state where that has failed."""
+def ends(plan, out):
+    """(exit code, folder that has it) of every run by its name: its own, or that of its static state where that has failed."""
     found = {}
     for run in plan["runs"]:
-        code = code_of(command_of_run(plan, out, run)[0])
+        folder, _ = command_of_run(plan, out, run)
+        code = code_of(folder)
         if code is None and run["static"]:
-            code = code_of(commands_of_static(plan, out, run["static"])[0]) or None
-        found[run["name"]] = code
+            state, _ = commands_of_static(plan, out, run["static"])
+            if code_of(state):
+                code, folder = code_of(state), state
+        found[run["name"]] = code, folder
     return found

@@ -106,12 +106,13 @@ def of_block(folder, options):
     return {"newmark_displacement": result["displacement"], "newmark_trigger": np.nan if trigger is None else trigger}
 
 
-def row_of(run, folder, code, given):
-    """What is told of a run: its numbers by name, NaN where there is none."""
+def row_of(run, folder, end, given):
+    """What is told of a run, whose `end` is its exit code and the folder that has it: its numbers by name, as far as there are."""
+    code, ended = end
     row = {"run": run["name"], "record": Path(run["record"]).stem if run["record"] else "case", "scale": run["scale"],
            "profile": run["profile"], "settings": json.dumps(run["settings"]) if run["settings"] else "",
            "exit": -1 if code is None else code, "state": sweep_run.words_of(code),
-           "reason": sweep_run.reason_of(folder) if code else ""}
+           "reason": sweep_run.reason_of(ended) if code else ""}
     try:
         row |= intensities(folder, given.periods)
     except (Missing, OSError, KeyError):
@@ -125,14 +126,20 @@ def row_of(run, folder, code, given):
     return row
 
 
+def motion_of(run):
+    """What the motion of a run depends on, but for its factor."""
+    shaking = {key: value for key, value in run["settings"].items() if key.startswith("seismic.")}
+    return json.dumps([run["record"], run["vertical"], run["record_options"], run["profile"], shaking], sort_keys=True)
+
+
 def collect(plan, given):
     """The rows of all runs; intensities of one that has not come so far are those of another run of its record, scaled."""
-    rows, known, codes = [], {}, sweep_run.codes(plan, given.folder)
+    rows, known, ends = [], {}, sweep_run.ends(plan, given.folder)
     names = [*INTENSITIES, *(f"sa_{period:g}" for period in given.periods)]
-    kinds = [json.dumps([run[key] for key in ("record", "vertical", "record_options", "profile", "settings")]) for run in plan["runs"]]
+    kinds = [motion_of(run) for run in plan["runs"]]
     for run, kind in zip(plan["runs"], kinds):
         folder, _ = sweep_plan.command_of_run(plan, given.folder, run)
-        row = row_of(run, folder, codes[run["name"]], given)
+        row = row_of(run, folder, ends[run["name"]], given)
         if row["exit"] == 0 and "pga" in row and run["scale"] != 0.0:
             known.setdefault(kind, (run["scale"], {name: row[name] for name in names}))
         rows.append(row)
