@@ -71,6 +71,8 @@ def fit(intensity, failed):
         raise NoFit(f"{len(x)} runs are too few")
     if failed.all() or not failed.any():
         raise NoFit("all runs failed" if failed.all() else "no run failed")
+    if np.ptp(x) < 1e-6:
+        raise NoFit("all runs have the same intensity")
     low, high = np.exp(x[~failed].max()), np.exp(x[failed].min())
     if high >= low:
         raise NoFit(f"all runs up to {low:.3g} stood and all from {high:.3g} on failed: the median lies between, beta cannot be told")

@@ -44,7 +44,7 @@ def parse_arguments(given):
     parser.add_argument("--records", nargs="+", default=[], metavar="PATH", help="folders, tables and records; default: the case's own")
     parser.add_argument("--scales", type=numbers, default=[1.0], metavar="F,F", help="factors on every record; default 1")
     parser.add_argument("--from", dest="start", type=Path, metavar="STATIC/final.h5", help="of mpm-static, if it is there already")
-    parser.add_argument("--profiles", type=lambda names: names.split(","), default=[], metavar="a,b")
+    parser.add_argument("--profiles", type=lambda names: names.split(","), default=[], metavar="a,b", help="default: the case as it is")
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="of all runs; repeatable")
     parser.add_argument("--vary", action="append", default=[], metavar="'KEY=V1; V2'", help="each value in turn; repeatable")
     parser.add_argument("--draw", action="append", default=[], metavar="KEY=LAW",

@@ -10,7 +10,8 @@ from matplotlib.ticker import FuncFormatter, NullLocator
 import fragility
 
 LABELS = {"pga": "PGA (g)", "pgv": "PGV (m/s)", "arias": "Arias intensity (m/s)", "displacement": "displacement (m)",
-          "toe_advance": "run-out of the toe (m)", "moved_mass": "moved mass (t/m)", "trigger_time": "trigger (s)"}
+          "toe_advance": "run-out of the toe (m)", "moved_mass": "moved mass (t/m)", "trigger_time": "trigger (s)",
+          "moved_area": "moved area (m²)", "newmark_displacement": "rigid block (m)", "newmark_trigger": "its trigger (s)"}
 DRAWN = {"displacement": 1.0, "toe_advance": 1.0, "moved_mass": 1e-3, "trigger_time": 1.0}  # and the factor to the unit of the label
 OURS, BLOCK, LOST = "#0072B2", "#D55E00", "#000000"  # told apart by the colour-blind (Okabe and Ito 2008)
 STYLE = """body{font:15px/1.45 sans-serif;max-width:75em;margin:1em auto;padding:0 1em;color:#111}img{max-width:100%}
@@ -130,9 +131,9 @@ def told(value):
     return html.escape(str(value))
 
 
-def table(columns, rows):
-    """Rows of the page's table of runs."""
-    head = "".join(f"<th>{html.escape(label_of(name).replace('_', ' '))}</th>" for name in columns)
+def table(columns, rows, units):
+    """Rows of the page's table of runs; units of the settings."""
+    head = "".join(f"<th>{html.escape(label_of(name) + (f' ({units[name]})' if units.get(name) else ''))}</th>" for name in columns)
     lines = []
     for row in rows:
         cells = "".join(f"<td>{told(row[name])}</td>" for name in columns)
@@ -161,8 +162,9 @@ def table_of_curves(curves, confidence):
     return f"<div class=wide><table><tr>{head}</tr>{''.join(lines)}</table></div>"
 
 
-def write(given, plan, rows, names, curves):
-    """Writes DIR/summary.html and the pictures in it."""
+def write(given, plan, rows, columns, curves):
+    """Writes DIR/summary.html and the pictures in it; columns: names of the intensities, and units of settings that differ."""
+    names, settings = columns
     pictures = given.folder / "pictures"
     pictures.mkdir(exist_ok=True)
     done = sum(row["exit"] == 0 for row in rows)
@@ -180,8 +182,8 @@ def write(given, plan, rows, names, curves):
                  "several scales counts once. Runs without a result (×) are in no curve.</p><h2>Runs</h2>")
     parts += [f"<p class=lost>{html.escape(row['run'])}: {html.escape(row['state'])}. {html.escape(row['reason'])}</p>"
               for row in rows if row["exit"] != 0]
-    parts.append(table(["run", "scale", "state", *drawn, "displacement", "toe_advance", "moved_area", "trigger_time",
-                        "newmark_displacement", "newmark_trigger"], rows))
+    parts.append(table(["run", "scale", *settings, "state", *drawn, "displacement", "toe_advance", "moved_area", "trigger_time",
+                        "newmark_displacement", "newmark_trigger"], rows, settings))
     page = f"<!doctype html><html lang=en><meta charset=utf-8><meta name=viewport content='width=device-width'>" \
            f"<title>{html.escape(given.folder.resolve().name)}</title><style>{STYLE}</style><body>{''.join(parts)}</body></html>\n"
     (given.folder / "summary.html").write_text(page, encoding="utf-8")

@@ -133,6 +133,8 @@ def make(given):
     case = given.case.resolve()
     if not case.exists():
         raise Refused(66, f"{given.case}: no such case")
+    if given.start and not given.start.exists():
+        raise Refused(66, f"{given.start}: no such static state")
     common = {setting(assignment) for assignment in given.set}
     runs, statics, digests = {}, {}, {}
     for record, scale, (profile, settings) in product(records_of(given.records), given.scales, list(variations(given))):

@@ -5,9 +5,6 @@ fragility curves with their uncertainty go to DIR/summary.csv, DIR/fragility.csv
 DIR/summary.html. Exit code: 75 when runs are unfinished, otherwise that of the first run that failed.
 """
 import csv
-import json
-import shlex
-import subprocess
 import sys
 from pathlib import Path
 
@@ -15,20 +12,12 @@ import h5py
 import numpy as np
 
 import fragility
-import newmark
-import spectrum
 import sweep_page
 import sweep_plan
 import sweep_run
 from options import Parser
-from plot_common import Missing, read_summary
 from resolved_case import Refused
-
-INTENSITIES = {"pga": "g", "pgv": "m/s", "arias": "m/s", "d5_95": "s"}  # and sa_T in g
-MEASURES = {"displacement": "m", "toe_advance": "m", "moved_area": "m2", "moved_mass": "kg/m", "trigger_time": "s",
-            "newmark_displacement": "m", "newmark_trigger": "s"}
-UNFINISHED = (None, 74, 75)  # exit codes of runs that go on when the sweep is repeated; above 128: killed
-
+from sweep_measures import INTENSITIES, MEASURES, collect, is_done, is_unfinished, varied
 
 def parse_arguments(given):
     """The command line."""
@@ -56,109 +45,6 @@ def parse_arguments(given):
     if not 0.0 < given.confidence < 1.0:
         parser.error(f"--confidence {given.confidence:g}: give a number between 0 and 1")
     return given
-
-
-def intensities(folder, periods):
-    """Intensities of the horizontal outcrop motion as a run applied it, by name."""
-    time, ground = newmark.outcrop(folder)
-    acceleration, dt = ground[:, 0], float(time[1] - time[0])
-    pga, pgv, _ = spectrum.peaks(acceleration, dt)
-    found = {"pga": pga / spectrum.GRAVITY, "pgv": pgv, "arias": spectrum.arias_intensity(acceleration, dt),
-             "d5_95": spectrum.significant_duration(acceleration, dt)}
-    sa = spectrum.pseudo_acceleration(acceleration, dt, periods) / spectrum.GRAVITY
-    return found | {f"sa_{period:g}": value for period, value in zip(periods, sa)}
-
-
-def scaled(known, factor):
-    """Intensities of a motion times a factor; the processing of a motion is linear."""
-    power = {"arias": 2, "d5_95": 0}
-    return {name: value * abs(factor) ** power.get(name, 1) for name, value in known.items()}
-
-
-def of_slide(folder):
-    """The measures of a finished run by name."""
-    slide = read_summary(folder).get("slide") or {}
-    shift = slide.get("centre_of_mass_displacement") or [0.0, 0.0]
-    numbers = {"displacement": float(np.hypot(*(part or 0.0 for part in shift)))}
-    for name in ("toe_advance", "moved_area", "moved_mass", "trigger_time"):
-        value = slide.get(name)
-        numbers[name] = np.nan if value is None else float(value)
-    if not numbers["moved_area"] > 0.0:
-        numbers.update(displacement=0.0, toe_advance=0.0)
-    return numbers
-
-
-def of_block(folder, options):
-    """Measures of the rigid block beside a run; kept in its newmark.json, so that it is found once."""
-    if options == "none":
-        return {}
-    if options is not None:
-        script = Path(__file__).resolve().parent / "newmark.py"
-        done = subprocess.run([sys.executable, str(script), str(folder), *shlex.split(options)], capture_output=True, text=True,
-                              check=False)
-        if done.returncode:
-            raise Refused(done.returncode, done.stderr.strip())
-        result = json.loads((folder / "newmark.json").read_text())
-    else:
-        result = newmark.stored_or_estimated(folder)
-        (folder / "newmark.json").write_text(json.dumps(result, indent=1) + "\n")
-    trigger = result["trigger_time"]
-    return {"newmark_displacement": result["displacement"], "newmark_trigger": np.nan if trigger is None else trigger}
-
-
-def row_of(run, folder, end, given):
-    """What is told of a run, whose `end` is its exit code and the folder that has it: its numbers by name, as far as there are."""
-    code, ended = end
-    row = {"run": run["name"], "record": Path(run["record"]).stem if run["record"] else "case", "scale": run["scale"],
-           "profile": run["profile"], "settings": json.dumps(run["settings"]) if run["settings"] else "",
-           "exit": -1 if code is None else code, "state": sweep_run.words_of(code),
-           "reason": sweep_run.reason_of(ended) if code else ""}
-    try:
-        row |= intensities(folder, given.periods)
-    except (Missing, OSError, KeyError):
-        pass  # it has not come so far
-    if code == 0:
-        row |= of_slide(folder)
-        try:
-            row |= of_block(folder, given.newmark)
-        except Missing as reason:
-            given.without_block.append(str(reason))
-    return row
-
-
-def motion_of(run):
-    """What the motion of a run depends on, but for its factor."""
-    shaking = {key: value for key, value in run["settings"].items() if key.startswith("seismic.")}
-    return json.dumps([run["record"], run["vertical"], run["record_options"], run["profile"], shaking], sort_keys=True)
-
-
-def collect(plan, given):
-    """The rows of all runs; intensities of one that has not come so far are those of another run of its record, scaled."""
-    rows, known, ends = [], {}, sweep_run.ends(plan, given.folder)
-    names = [*INTENSITIES, *(f"sa_{period:g}" for period in given.periods)]
-    kinds = [motion_of(run) for run in plan["runs"]]
-    for run, kind in zip(plan["runs"], kinds):
-        folder, _ = sweep_plan.command_of_run(plan, given.folder, run)
-        row = row_of(run, folder, ends[run["name"]], given)
-        if row["exit"] == 0 and "pga" in row and run["scale"] != 0.0:
-            known.setdefault(kind, (run["scale"], {name: row[name] for name in names}))
-        rows.append(row)
-    for run, kind, row in zip(plan["runs"], kinds, rows):
-        if row["exit"] != 0 and kind in known:
-            row |= scaled(known[kind][1], run["scale"] / known[kind][0])
-        for name in (*names, *MEASURES):
-            row.setdefault(name, np.nan)
-    return rows, names
-
-
-def is_done(row):
-    """Whether a run is finished."""
-    return row["exit"] == 0
-
-
-def is_unfinished(row):
-    """Whether a run has not been done yet, as against one that has failed."""
-    return row["exit"] in (-1, *UNFINISHED) or row["exit"] > 128
 
 
 def fragilities(rows, names, given):
@@ -196,14 +82,14 @@ FRAGILITY_COLUMNS = ["limit", "intensity", "runs", "failures", "left_out", "medi
 
 def units_of(name):
     """Unit of a column, empty for words and counts."""
-    return "g" if name.startswith("sa_") else {**INTENSITIES, **MEASURES, "scale": "1"}.get(name, "")
+    return "g" if name.startswith("sa_") else {**INTENSITIES, **MEASURES}.get(name, "")
 
 
-def write_csv(path, columns, rows):
+def write_csv(path, columns, rows, units=units_of):
     """A table with units in its heading; what is not known is empty."""
     with open(path, "w", newline="") as file:
         writer = csv.writer(file)
-        writer.writerow([f"{name} ({units_of(name)})" if units_of(name) not in ("", "1") else name for name in columns])
+        writer.writerow([f"{name} ({units(name)})" if units(name) else name for name in columns])
         for row in rows:
             values = [row.get(name, "") for name in columns]
             writer.writerow(["" if isinstance(v, float) and np.isnan(v) else f"{v:.6g}" if isinstance(v, float) else v for v in values])
@@ -229,15 +115,17 @@ def summarise(words):
     plan = sweep_plan.read(given.folder)
     rows, names = collect(plan, given)
     curves = fragilities(rows, names, given)
-    columns = ["run", "record", "scale", "profile", "settings", "exit", "state", *names, *MEASURES, "reason"]
-    write_csv(given.folder / "summary.csv", columns, rows)
+    settings = varied(plan, rows)
+    columns = ["run", "record", "scale", "profile", *settings, "exit", "state", *names, *MEASURES, "reason"]
+    units = lambda name: settings.get(name) or units_of(name)
+    write_csv(given.folder / "summary.csv", columns, rows, units)
     write_csv(given.folder / "fragility.csv", FRAGILITY_COLUMNS, curves)
     part = given.folder / "summary.h5.part"
     with h5py.File(part, "w") as file:
-        write_group(file.create_group("runs"), columns, rows, units_of)
+        write_group(file.create_group("runs"), columns, rows, units)
         write_group(file.create_group("fragility"), FRAGILITY_COLUMNS, curves, lambda name: "")
     part.replace(given.folder / "summary.h5")
-    sweep_page.write(given, plan, rows, names, curves)
+    sweep_page.write(given, plan, rows, [names, settings], curves)
     for reason in dict.fromkeys(given.without_block):
         print(f"sweep-summary: no rigid block: {reason}", file=sys.stderr)
     for row in rows:

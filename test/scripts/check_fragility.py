@@ -64,7 +64,7 @@ def banded():
 
 
 def without():
-    """Data without a maximum are told so: all failed, none, a clean cut, one that does not grow, too few."""
+    """Data without a maximum are told so: all failed, none, a clean cut, one that does not grow, too few, one intensity."""
     x = np.arange(1.0, 7.0)
     wrong = 0
     for failed in ([1] * 6, [0] * 6, [0, 0, 0, 1, 1, 1], [1, 1, 0, 1, 0, 0]):
@@ -73,11 +73,13 @@ def without():
             wrong += 1
         except fragility.NoFit:
             pass
-    try:
-        fragility.fit(x[:2], [False, True])
-        wrong += 1
-    except fragility.NoFit:
-        return float(wrong), 0.0
+    for few in (x[:2], np.ones(6)):
+        try:
+            fragility.fit(few, np.arange(len(few)) % 2 == 1)
+            wrong += 1
+        except fragility.NoFit:
+            pass
+    return float(wrong), 0.0
 
 
 def by_records():

@@ -129,10 +129,10 @@ def checks():
     began = time.monotonic()
     with tempfile.TemporaryDirectory() as path:
         folder = Path(path)
-        make_records(folder)
-        be_long(folder)
         with Cluster() as cluster:
             print(f"Slurm is up after {time.monotonic() - began:.1f} s", flush=True)
+            make_records(folder)
+            be_long(folder)
             seen = live_through(folder, cluster)
             yield "a sweep is submitted", count(seen["submitted"].returncode == 0, "3 runs are left" in seen["submitted"].stdout)
             yield "not while its jobs wait or run", count(seen["twice"].returncode == 73, "squeue" in seen["twice"].stderr)

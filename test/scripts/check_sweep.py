@@ -15,8 +15,8 @@ import numpy as np
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts"))
 import make_motion
+import sweep_measures
 import sweep_plan
-import sweep_summary
 from checking import report
 from resolved_case import Refused
 
@@ -64,6 +64,7 @@ def planned(folder):
                  len(varied["runs"]) == 4, len(varied["statics"]) == 2,
                  refused(65, "is none of", lambda: table.write_text("motion\na\n") and sweep_plan.read_table(table)),
                  refused(66, "no such", lambda: sweep_plan.make(options(records=["none"]))),
+                 refused(66, "no such", lambda: sweep_plan.make(options(start=Path("none")))),
                  refused(65, "strenth", lambda: sweep_plan.make(options(set=["materials.clay.strenth.peak=1 kPa"]))),
                  refused(64, "KEY=VALUE", lambda: sweep_plan.make(options(set=["grid.spacing"]))))
 
@@ -130,7 +131,7 @@ def interrupted(folder):
 def scaled():
     """Intensities of a scaled motion."""
     known = {"pga": 1.0, "arias": 2.0, "d5_95": 3.0, "sa_0.5": 4.0}
-    return wrong(sweep_summary.scaled(known, 0.5) == {"pga": 0.5, "arias": 0.5, "d5_95": 3.0, "sa_0.5": 2.0})
+    return wrong(sweep_measures.scaled(known, 0.5) == {"pga": 0.5, "arias": 0.5, "d5_95": 3.0, "sa_0.5": 2.0})
 
 
 def checks():

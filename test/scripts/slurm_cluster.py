@@ -16,7 +16,7 @@ from pathlib import Path
 NODES = ("n1", "n2", "n3")
 PROGRAMS = ("munged", "slurmctld", "slurmd", "sbatch", "scontrol", "squeue", "sinfo")
 SETTINGS = """ClusterName=test
-SlurmctldHost={host}(127.0.0.1)
+SlurmctldHost={host}({address})
 AuthInfo=socket={folder}/munge.socket,cred_expire=5
 SlurmUser=root
 SlurmctldPort={ports[0]}
@@ -40,9 +40,9 @@ PreemptType=preempt/partition_prio
 PreemptMode=REQUEUE
 SlurmctldParameters=preempt_send_user_signal
 CommunicationParameters=NoInAddrAny,NoCtldInAddrAny
-NodeName=n1 NodeHostname={host} NodeAddr=127.0.0.1 Port={ports[1]} CPUs=1
-NodeName=n2 NodeHostname={host} NodeAddr=127.0.0.1 Port={ports[2]} CPUs=1
-NodeName=n3 NodeHostname={host} NodeAddr=127.0.0.1 Port={ports[3]} CPUs=1
+NodeName=n1 NodeHostname={host} NodeAddr={address} Port={ports[1]} CPUs=1
+NodeName=n2 NodeHostname={host} NodeAddr={address} Port={ports[2]} CPUs=1
+NodeName=n3 NodeHostname={host} NodeAddr={address} Port={ports[3]} CPUs=1
 PartitionName=low Nodes=n1,n2 Default=YES PriorityTier=1 GraceTime=10
 PartitionName=high Nodes=n1,n2 PriorityTier=10
 PartitionName=apart Nodes=n3
@@ -53,9 +53,9 @@ class Unavailable(Exception):
     """Says why no Slurm can be started here."""
 
 
-def free_ports(count):
-    """Ports of the loopback that nobody listens at."""
-    sockets = [socket.create_server(("127.0.0.1", 0)) for _ in range(count)]
+def free_ports(address, count):
+    """Ports of an address of this machine that nobody listens at."""
+    sockets = [socket.create_server((address, 0)) for _ in range(count)]
     ports = [each.getsockname()[1] for each in sockets]
     for each in sockets:
         each.close()
@@ -97,12 +97,13 @@ class Cluster:
     def start(self):
         """Key, settings, daemons."""
         folder, host = self.folder, socket.gethostname().split(".")[0]
-        socket.getaddrinfo(socket.gethostname(), None)
+        address = socket.gethostbyname(socket.gethostname())  # often of the loopback; what Slurm listens at by its settings
         key = folder / "munge.key"
         key.write_bytes(os.urandom(128))
         key.chmod(0o400)
         (folder / "state").mkdir()
-        (folder / "slurm.conf").write_text(SETTINGS.format(folder=folder, host=host, ports=free_ports(1 + len(NODES))))
+        (folder / "slurm.conf").write_text(SETTINGS.format(folder=folder, host=host, address=address,
+                                                            ports=free_ports(address, 1 + len(NODES))))
         os.environ["SLURM_CONF"] = str(folder / "slurm.conf")
         version = subprocess.run(["sinfo", "--version"], capture_output=True, text=True, check=True).stdout.split()[-1]
         plugin = "cgroup/v1" if version < "24" else "disabled"  # one is loaded, though none is used
