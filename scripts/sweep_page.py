@@ -93,8 +93,7 @@ def draw_curves(rows, curves, confidence):
         axis = axes[limits.index(told["limit"]), names.index(told["intensity"])]
         values = column(rows, told["intensity"])
         log_axis(axis, values[values > 0.0])
-        measure, value = told["limit"].split(" ")[0::2][:2]
-        failed = column(rows, measure) >= float(value)
+        failed = column(rows, told["measure"]) >= told["value"]
         done = np.array([row["exit"] == 0 for row in rows])
         axis.plot(values[done], failed[done], "|", color=OURS, ms=9, alpha=0.7, label="slope failed, or stood")
         if not done.all():

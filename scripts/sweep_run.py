@@ -102,10 +102,10 @@ class Pool:
         return code
 
 
-def tell(done, count, name, folder, code):
-    """One line of progress."""
+def tell(what, folder, code):
+    """One line of progress: how a command has ended."""
     reason = f": {reason_of(folder)}" if code else ""
-    print(f"sweep: {done}/{count} {name}: {words_of(code)}{reason}", file=sys.stderr, flush=True)
+    print(f"sweep: {what}: {words_of(code)}{reason}", file=sys.stderr, flush=True)
 
 
 def work(plan, out, jobs, threads):
@@ -124,7 +124,7 @@ def work_in(pool, plan, out, jobs):
         folder, command = commands_of_static(plan, out, digest)
         code = pool.run(folder, command) if left(folder) else code_of(folder)
         if code and not pool.stopped:
-            tell("static", len(plan["statics"]), digest, folder, code)
+            tell(f"static state {digest}", folder, code)
         return code
 
     def shake(run):
@@ -139,7 +139,7 @@ def work_in(pool, plan, out, jobs):
             code = pool.run(folder, command)
         done += 1
         if not (pool.stopped and code == INTERRUPTED):
-            tell(done, count, run["name"], folder, code)
+            tell(f"{done}/{count} {run['name']}", folder, code)
 
     needed = {run["static"] for run in plan["runs"] if run["static"] and left(command_of_run(plan, out, run)[0])}
     with ThreadPoolExecutor(jobs) as workers:

@@ -57,7 +57,7 @@ def fragilities(rows, names, given):
                 continue
             used = [row for row in done if row[name] > 0.0]
             im, failed = np.array([row[name] for row in used]), np.array([row[limit] >= value for row in used], dtype=bool)
-            told = {"limit": f"{limit} >= {value:g} {MEASURES[limit]}", "intensity": name, "runs": len(used),
+            told = {"limit": f"{limit} >= {value:g} {MEASURES[limit]}", "measure": limit, "value": value, "intensity": name, "runs": len(used),
                     "failures": int(failed.sum()), "left_out": len(rows) - len(used), "curve": None, "why_not": ""}
             try:
                 told["curve"] = curve = fragility.fit(im, failed)
