@@ -10,6 +10,7 @@ from matplotlib.colors import Normalize
 
 import newmark
 import plot_sections
+import plot_uncertainty
 import spectrum
 from plot_common import Missing, array, frame_times, group_of, label, open_history, read_summary, text, titled
 from plot_histories import read_gauges, read_motion, read_outline
@@ -44,24 +45,27 @@ def mark_trigger(axis, trigger):
         axis.axvline(trigger, color="k", lw=0.8, ls=":")
 
 
-def draw_gauges(axis, file, trigger):
+def draw_gauges(axis, file, trigger, sure):
     """Distance (m) of the gauges from where they were."""
     time, names, fields = read_gauges(file)
     for k, name in enumerate(names):
+        plot_uncertainty.shade(axis, sure, f"{name}.displacement", f"C{k % 10}")
         axis.plot(time, np.linalg.norm(fields["displacement"][:, k], axis=1), lw=0.9, label=label(name))
     axis.set_title("displacement of the gauges (m)")
     axis.legend(fontsize=6)
     mark_trigger(axis, trigger)
 
 
-def draw_slide(axis, file, trigger):
+def draw_slide(axis, file, trigger, sure):
     """Moved area (m2), and the centre of mass' displacement (m) on the right."""
     slide = group_of(file, "slide")
     time = array(slide, "time")
+    plot_uncertainty.shade(axis, sure, "moved_area", "C0")
     axis.plot(time, array(slide, "moved_area"), "C0-", lw=1.0)
     axis.set_title("moved ground: area (full), mean displacement (dashed)")
     axis.set_ylabel("area (m²)", color="C0")
     other = axis.twinx()
+    plot_uncertainty.shade(other, sure, "run_out", "C1")
     other.plot(time, np.linalg.norm(array(slide, "centre_of_mass_displacement"), axis=1), "C1--", lw=1.0)
     other.set_ylabel("displacement (m)", color="C1")
     other.grid(False)
@@ -70,10 +74,11 @@ def draw_slide(axis, file, trigger):
     mark_trigger(axis, trigger)
 
 
-def draw_speed(axis, file, trigger):
+def draw_speed(axis, file, trigger, sure):
     """Speed of the slide (m/s): 99th percentile and centre of mass."""
     slide = group_of(file, "slide")
     time = array(slide, "time")
+    plot_uncertainty.shade(axis, sure, "peak_velocity", "C1")
     axis.plot(time, array(slide, "peak_velocity"), "C1", lw=1.0, label="99th percentile")
     velocity = array(slide, "centre_of_mass_velocity")
     axis.plot(time, np.linalg.norm(velocity, axis=1), "C2", lw=1.0, label="centre of mass")
@@ -82,8 +87,8 @@ def draw_speed(axis, file, trigger):
     mark_trigger(axis, trigger)
 
 
-def draw_motion(axis, file, trigger):
-    """Outcrop acceleration (m/s2), twice the upgoing one as applied."""
+def draw_motion(axis, file, trigger, _):
+    """Outcrop acceleration (m/s2), twice the upgoing one as applied; it has no band."""
     time, velocity, acceleration = read_motion(file)
     for component in range(velocity.shape[1]):
         if np.any(velocity[:, component]):
@@ -98,27 +103,29 @@ def value(number, unit, digits=2):
     return "–" if number is None else f"{number:.{digits}f} {unit}"
 
 
-def peak_text(peak, unit):
-    """A greatest value with its time and place."""
+def peak_text(peak, unit, bar=""):
+    """A greatest value with its uncertainty, its time and place."""
     if peak["time"] is None:
         return "–"
     place = "".join(f" at x = {p[0]:.1f}, y = {p[1]:.1f} m" for p in [peak.get("position")] if p)
-    return f"{peak['value']:.2f} {unit}, t = {peak['time']:.1f} s{place}"
+    return f"{peak['value']:.2f} {unit}{bar}, t = {peak['time']:.1f} s{place}"
 
 
-def measures(summary):
-    """Name and text of the measures of the run."""
+def measures(summary, sure=None):
+    """Name and text of the measures of the run, with the uncertainty of those that have one."""
     slide = summary["slide"]
+    known = (sure or {}).get("measures", {})
+    bar = lambda name: f" ± {plot_uncertainty.half_text(known[name])}" if name in known else ""
     dx, dy = slide["centre_of_mass_displacement"]
-    rows = [("trigger time", value(slide["trigger_time"], "s")),
-            ("moved area (over 1 m)", value(slide["moved_area"], "m²", 1)),
+    rows = [("trigger time", value(slide["trigger_time"], "s") + bar("trigger_time")),
+            ("moved area (over 1 m)", value(slide["moved_area"], "m²", 1) + bar("moved_area")),
             ("moved mass", value(slide["moved_mass"] / 1000.0, "t/m", 1)),
-            ("its centre of mass moved", f"{dx:.2f} m in x, {dy:.2f} m in y"),
-            ("toe advance", value(slide["toe_advance"], "m") + f", to x = {value(slide['toe'], 'm', 1)}"),
-            ("greatest velocity, 99th percentile", peak_text(slide["peak_velocity"], "m/s")),
+            ("its centre of mass moved", f"{dx:.2f} m in x, {dy:.2f} m in y" + (f"; {np.hypot(dx, dy):.2f} m{bar('run_out')}" if known else "")),
+            ("toe advance", value(slide["toe_advance"], "m") + bar("toe_advance") + f", to x = {value(slide['toe'], 'm', 1)}{bar('toe')}"),
+            ("greatest velocity, 99th percentile", peak_text(slide["peak_velocity"], "m/s", bar("peak_velocity"))),
             ("greatest velocity, point", peak_text(slide["point_velocity"], "m/s")),
-            ("surface rose most", f"{slide['outline_rise']['height']:.2f} m at x = {value(slide['outline_rise']['x'], 'm', 1)}"),
-            ("surface fell most", f"{slide['outline_fall']['height']:.2f} m at x = {value(slide['outline_fall']['x'], 'm', 1)}")]
+            ("surface rose most", f"{slide['outline_rise']['height']:.2f} m{bar('outline_rise')} at x = {value(slide['outline_rise']['x'], 'm', 1)}"),
+            ("surface fell most", f"{slide['outline_fall']['height']:.2f} m{bar('outline_fall')} at x = {value(slide['outline_fall']['x'], 'm', 1)}")]
     for component, motion in summary.get("motion", {}).items():
         m = motion["applied"]
         rows.append((f"{component} motion as applied", f"PGA {m['pga'] / spectrum.GRAVITY:#.3g} g, PGV {m['pgv']:#.3g} m/s, "
@@ -159,11 +166,21 @@ def rigid_block_of(folder):
         return None
 
 
-def draw_words(axis, summary, block):
+def uncertainty_of(folder):
+    """Numerical uncertainty of the run; None, and said so, where it is of another."""
+    try:
+        return plot_uncertainty.stored(folder)
+    except (Missing, ValueError, KeyError, OSError) as reason:
+        print(f"plot-run: no uncertainty beside the run: {reason}", file=sys.stderr)
+        return None
+
+
+def draw_words(axis, summary, block, sure):
     """Measures on the left; warnings, resolution and versions on the right."""
     axis.axis("off")
     beside = ["rigid block: " + "; ".join(newmark.lines_of(block))] if block else []
-    write_text(axis, 0.0, "Measures", [f"{name}: {words}" for name, words in measures(summary)] + beside, 70)
+    title = "Measures, ± numerical uncertainty at 95 %" if sure else "Measures"
+    write_text(axis, 0.0, title, [f"{name}: {words}" for name, words in measures(summary, sure)] + beside, 70)
     warnings = [text(warning) for warning in summary.get("warnings", [])]
     more = [f"and {len(warnings) - MOST_WARNINGS} more, see log.txt"] if len(warnings) > MOST_WARNINGS else []
     lines = ["! " + warning for warning in warnings[:MOST_WARNINGS]] + more or ["no warnings"]
@@ -184,17 +201,17 @@ def page(folder, heading):
     trigger = summary["slide"]["trigger_time"]
     with plt.rc_context({"axes.titlesize": 8, "xtick.labelsize": 7, "ytick.labelsize": 7, "axes.labelsize": 7}):
         figure = plt.figure(figsize=PAGE, layout="constrained")
-        block = rigid_block_of(folder)
+        block, sure = rigid_block_of(folder), uncertainty_of(folder)
         rows = figure.subfigures(5 if block else 4, 1, height_ratios=(3.2, 2.1, 2.1, *([2.1] if block else []), 2.9))
         with open_history(folder) as file:
             heading += went_on(file, summary)
             draw_section(rows[0], rows[0].subplots(), folder, read_outline(file))
             for axis, draw in zip(np.append(rows[1].subplots(1, 2), rows[2].subplots(1, 2)),
                                   (draw_gauges, draw_slide, draw_speed, draw_motion)):
-                draw(axis, file, trigger)
+                draw(axis, file, trigger, sure)
                 axis.grid(alpha=0.3)
                 axis.set_xlabel("time (s); dotted: trigger")
         if block:
             newmark.draw(rows[3].subplots(), folder, block)
-        draw_words(rows[-1].subplots(), summary, block)
+        draw_words(rows[-1].subplots(), summary, block, sure)
     return titled(figure, heading)

@@ -8,7 +8,6 @@ run that failed, after all have been tried.
 """
 import argparse
 import json
-import subprocess
 import sys
 from pathlib import Path
 
@@ -17,8 +16,7 @@ import numpy as np
 from options import Parser
 from plot_common import Missing, array, group_of, open_history
 from plot_histories import read_gauges
-
-PROGRAMS = Path(__file__).resolve().parent.parent / "build"
+from stages import PROGRAMS, Failed, both_stages
 
 
 def parse_arguments(given):
@@ -45,12 +43,10 @@ def run(arguments, profile):
     name = profile or "as-is"
     chosen = ["--profile", profile] if profile else []
     static, shaken = arguments.out / f"{name}-static", arguments.out / name
-    for command in (["mpm-static", arguments.case, "--out", static],
-                    ["mpm-seismic", arguments.case, "--from", static / "final.h5", "--out", shaken]):
-        command = [arguments.programs / command[0], *command[1:], *chosen, *arguments.more]
-        code = subprocess.run([str(part) for part in command], check=False).returncode
-        if code:
-            return shaken, code
+    try:
+        both_stages(arguments.programs, arguments.case, (static, shaken), [*chosen, *arguments.more])
+    except Failed as failure:
+        return shaken, failure.code
     return shaken, 0
 
 
