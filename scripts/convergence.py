@@ -14,7 +14,7 @@ LOWEST, HIGHEST = 0.5, 3.0   # orders used: interfaces and bands have 1, waves 2
 TOO_HIGH = 4.0               # an order beyond it is none of the scheme's: the coarsest cells do not carry the answer
 CONFIDENCE = 0.95
 DOUBT = 0.5                  # of the 95 % scatter of a difference, by which it is taken against the order that it tells
-SCATTER_POWER = 0.5          # of h, with which shifted grids deviate: misplaced interfaces ask for 1, bands that choose their row of cells for 0
+SCATTER_POWER = 0.75         # of h, with which shifted grids deviate: misplaced interfaces ask for 1, bands on a row of cells for 0
 FLOOR = 1e-4                 # of the value: what time steps, sampling and a record's own digits leave
 
 
@@ -78,7 +78,7 @@ def order_of(spacings, steps, doubt):
         return "two grids", None, 1.0, ROUGH
     order = observed_order(spacings, steps)
     if np.all(steps <= doubt):
-        return "scatter", None, 1.0, SMOOTH
+        return "scatter", None, 1.0, ROUGH
     if order is None or order < LOWEST:
         return "slow", order, 1.0, ROUGH
     doubtful = observed_order(spacings, (steps[0] + DOUBT * doubt[0], steps[1] - DOUBT * doubt[1])) or 0.0

@@ -12,6 +12,7 @@ import newmark
 import plot_sections
 import plot_uncertainty
 import spectrum
+import uncertainty_report
 from plot_common import Missing, array, frame_times, group_of, label, open_history, read_summary, text, titled
 from plot_histories import read_gauges, read_motion, read_outline
 
@@ -178,7 +179,8 @@ def uncertainty_of(folder):
 def draw_words(axis, summary, block, sure):
     """Measures on the left; warnings, resolution and versions on the right."""
     axis.axis("off")
-    beside = ["rigid block: " + "; ".join(newmark.lines_of(block))] if block else []
+    turns = [uncertainty_report.verdict(sure, grid) for grid in sure["grids"] if grid["name"] in sure["turning_scale"]] if sure else []
+    beside = turns + ["rigid block: " + "; ".join(newmark.lines_of(block))] if block else turns
     title = "Measures, ± numerical uncertainty at 95 %" if sure else "Measures"
     write_text(axis, 0.0, title, [f"{name}: {words}" for name, words in measures(summary, sure)] + beside, 70)
     warnings = [text(warning) for warning in summary.get("warnings", [])]

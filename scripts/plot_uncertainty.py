@@ -8,9 +8,10 @@ from matplotlib.ticker import FuncFormatter
 from newmark import run_of
 from plot_common import WIDTH, Missing, label, save
 
-TITLES = {"moved_area": "moved area", "run_out": "displacement of its centre of mass", "peak_velocity": "speed of the moved ground, "
-          "99th percentile", "outline": "the free surface at the end"}
+TITLES = {"moved_area": "moved area", "run_out": "displacement of its centre of mass",
+          "peak_velocity": "speed of the moved ground, 99th percentile", "outline": "the free surface at the end"}
 MOST_BARS = 40  # measures that the picture shows; the table has all
+MOST = 1000.0   # % of its value, at which a bar ends
 
 
 def in_words(name):
@@ -32,7 +33,8 @@ def stored(folder):
 
 def half_text(entry):
     """An uncertainty with two digits and its unit."""
-    return f"{float(format(entry['uncertainty'], '.2g')):g} {entry['unit']}" + (" (bifurcates)" if entry["kind"] == "bifurcates" else "")
+    remark = " (bifurcates)" if entry["kind"] == "bifurcates" else ""
+    return f"{float(format(entry['uncertainty'], '.2g')):g} {entry['unit']}{remark}"
 
 
 def arrays(history):
@@ -62,9 +64,9 @@ def draw_band(axis, name, history):
 
 
 def draw_bars(axis, measures):
-    """Uncertainty of each measure over its value (%), with an edge where its convergence is not asymptotic."""
+    """Uncertainty of each measure over its value (%), in another colour where it is not asymptotic."""
     names = [name for name, entry in measures.items() if entry["value"]][:MOST_BARS]
-    share = [100.0 * measures[name]["uncertainty"] / abs(measures[name]["value"]) for name in names]
+    share = [min(MOST, 100.0 * measures[name]["uncertainty"] / abs(measures[name]["value"])) for name in names]
     sound = [measures[name]["kind"] in ("asymptotic", "scatter") for name in names]
     axis.barh(range(len(names)), share, color=["C0" if good else "C1" for good in sound])
     axis.set_yticks(range(len(names)), [in_words(name) for name in names], fontsize=7)
@@ -79,7 +81,7 @@ def draw_bars(axis, measures):
 
 def draw(result, out):
     """uncertainty.png: bands of the histories, two beside each other, and the measures' bars below."""
-    bands = {name: history for name, history in result["histories"].items() if any(history["value"])}
+    bands = {name: history for name, history in result["histories"].items() if any(history["value"]) or any(history["uncertainty"])}
     rows = (len(bands) + 1) // 2
     heights = 2.3 * rows, 0.6 + 0.19 * min(MOST_BARS, len(result["measures"]))
     figure = plt.figure(figsize=(WIDTH, sum(heights) + 0.5), layout="constrained")

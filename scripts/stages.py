@@ -1,6 +1,7 @@
 """Runs both stages of a case, and reads a case as the programs understand it."""
 import re
 import subprocess
+import sys
 from pathlib import Path
 
 PROGRAMS = Path(__file__).resolve().parent.parent / "build"
@@ -30,7 +31,10 @@ def split_options(options):
 
 
 def call(*command, **named):
-    """Runs a program; raises Failed when it fails."""
+    """Runs a program; raises Failed when it fails, or is not there."""
+    if not Path(command[0]).exists():
+        print(f"{command[0]} is missing; build first (scripts/run)", file=sys.stderr)
+        raise Failed(66)
     done = subprocess.run([str(part) for part in command], check=False, **named)
     if done.returncode:
         raise Failed(done.returncode)

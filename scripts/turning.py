@@ -26,9 +26,9 @@ def turning(fails_at, fails, runs):
 
 
 def in_words(stands, fails):
-    """A bracket for people."""
+    """A bracket for people: how many times as strong as the given motion is the one at which the slope turns."""
     if stands is None:
-        return f"below {fails:g}"
+        return f"less than {fails:g} times"
     if fails is None:
-        return f"above {stands:g}"
-    return f"between {stands:g} and {fails:g}"
+        return f"more than {stands:g} times"
+    return f"{stands:g} to {fails:g} times"

@@ -33,6 +33,7 @@ def list_of(kind, count):
         if len(values) != count or min(values) < 0:
             raise argparse.ArgumentTypeError(f"'{given}' is not {count} numbers from 0 on, with commas between them")
         return values
+    parse.__name__ = f"list of {count} numbers"
     return parse
 
 

@@ -8,12 +8,13 @@ from plot_uncertainty import in_words as named
 from turning import in_words
 
 POINTS = 300  # of a history, as it is kept
-WORDS = {"asymptotic": "", "scatter": "cells of all sizes agree within the scatter of shifted grids",
+WORDS = {"asymptotic": "", "scatter": "all sizes of cells agree as well as shifts do",
          "oscillating": "not asymptotic: finer cells turn the other way",
          "slow": "not asymptotic: finer cells differ no less, or diverge",
          "fast": "not asymptotic: the coarsest cells do not carry it",
-         "two grids": "cells of two sizes only: order 1 and a safety factor of 3 are assumed", "one grid": "cells of one size only",
-         "bifurcates": "the slope stands on one grid and fails on another: the range of all grids"}
+         "two grids": "cells of two sizes only: order 1 and a safety factor of 3 are assumed",
+         "one grid": "cells of one size only",
+         "bifurcates": "bifurcates: the range of all grids"}
 
 
 def by_level(grids, values):
@@ -30,7 +31,7 @@ def entry(unit, levels, bifurcates):
     found = convergence.estimate(levels)
     uncertainty, kind = found.uncertainty, found.kind
     if bifurcates:
-        uncertainty = max(uncertainty, *(abs(value - found.value) for _, row in levels for value in row))
+        uncertainty = max(abs(value - found.value) for _, row in levels for value in row)
         kind = "bifurcates"
     return {"unit": unit, "value": found.value, "uncertainty": uncertainty, "order": found.order, "kind": kind,
             "discretization": found.error, "scatter": found.scatter,
@@ -56,7 +57,7 @@ def listed(values):
     return [float(f"{value:.6g}") if np.isfinite(value) else None for value in values]
 
 
-def bands(series, folders):
+def bands(series, folders, bifurcates):
     """{name: band} of the histories: abscissa, the case's own values and their uncertainty, at POINTS points at most."""
     found = {name: run_measures.histories(folder) for name, folder in folders.items()}
     kept = {}
@@ -65,7 +66,9 @@ def bands(series, folders):
         values = {name: np.interp(along, *rows[key]) for name, rows in found.items() if key in rows}
         sound = np.all([np.isfinite(row) for row in values.values()], axis=0)
         half = np.full(len(along), np.nan)
-        if sound.any():
+        if bifurcates:
+            half[sound] = np.max([np.abs(row - values["as-is"])[sound] for row in values.values()], axis=0)
+        elif sound.any():
             levels = by_level(series.grids, {name: row[sound] for name, row in values.items()})
             half[sound] = convergence.band(levels)
         kept[key[0]] = {"unit": key[1], "along": listed(along), "value": listed(values["as-is"]), "uncertainty": listed(half)}
@@ -85,7 +88,7 @@ def report(series, verdicts, turnings):
             "turning_scale": {name: {"stands": bracket[0], "fails": bracket[1], "runs": bracket[2]}
                               for name, bracket in turnings.items()},
             "measures": {measure.name: entry(measure.unit, rows, bifurcates) for measure, rows in levels.items()},
-            "histories": bands(series, folders)}
+            "histories": bands(series, folders, bifurcates)}
 
 
 def plus_minus(entry):
@@ -99,18 +102,23 @@ def plus_minus(entry):
 
 def order_text(entry):
     """The observed order, a dash where there is none."""
-    return "–" if entry["order"] is None else "> 4" if entry["order"] > 4 else f"{entry['order']:.1f}"
+    return "–" if entry["order"] is None or entry["kind"] == "bifurcates" else "> 4" if entry["order"] > 4 else f"{entry['order']:.1f}"
+
+
+def verdict(result, grid):
+    """What the slope does on a grid, and the scale of the motion at which it turns, where that was looked for."""
+    said = f"{grid['name']} (h = {grid['spacing']:.4g} m) {'fails' if grid['fails'] else 'stands'}"
+    bracket = result["turning_scale"].get(grid["name"], {"runs": 0})
+    found = f"; it turns under {in_words(bracket['stands'], bracket['fails'])} the motion" if bracket["runs"] else ""
+    return said + found
 
 
 def remarks(result):
     """What is to be said of the series as a whole: grids left out, where the slope turns."""
     said = [f"{name} ended with {code} and is left out" for name, code in result["left_out"].items()]
     if result["bifurcates"]:
-        for grid in result["grids"]:
-            bracket = result["turning_scale"].get(grid["name"])
-            found = f"; it turns at a scale {in_words(bracket['stands'], bracket['fails'])}" if bracket and bracket["runs"] else ""
-            said.append(f"{grid['name']} (h = {grid['spacing']:.4g} m) {'fails' if grid['fails'] else 'stands'}{found}")
-        said.insert(len(result["left_out"]), "the answer bifurcates: the slope stands on one grid and fails on another")
+        said.append("the answer bifurcates: the slope stands on one grid and fails on another")
+        said += [verdict(result, grid) for grid in result["grids"]]
     return said
 
 

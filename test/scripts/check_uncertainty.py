@@ -43,7 +43,7 @@ seismic:
 
 
 def drawn(generator):
-    """Levels of a made measure whose true value is 0: a h^p (1 + b h) and scatter, p from 1 to 3, scatter of .1 to 1000 % of a."""
+    """Levels of a made measure whose true value is 0: a h^p (1 + b h), p from 1 to 3, and scatter of 0.1 to 1000 %."""
     order, bend = generator.choice([1.0, 1.5, 2.0, 3.0]), generator.uniform(-0.3, 0.3) / SPACINGS[-1]
     noise, power = 10 ** generator.uniform(-3, 1), generator.choice([0.5, 1.0, 1.5])
     return [(h, h**order * (1 + bend * h) + noise * h**power * generator.normal(size=count))
@@ -90,7 +90,8 @@ def planned():
     plan = grids.plan(settings, (0, 1, 2))
     shifted = plan[1]
     moved, along = shifted.settings, shifted.spacing * shifted.shift[0]
-    wrong = [[grid.level for grid in plan] != [2, 2, 2, 1, 1, 0], plan[3].name != "h1.552" or plan[-1].settings != {}, abs(90 / plan[0].spacing - 38) > 1e-9,
+    wrong = [[grid.level for grid in plan] != [2, 2, 2, 1, 1, 0], plan[3].name != "h1.552" or plan[-1].settings != {},
+             abs(90 / plan[0].spacing - 38) > 1e-9,
              max(abs(part) for grid in plan for part in grid.shift) > 0.5,
              max(abs(np.array(stages.numbers(moved["domain.x"])) - [along, 90 + along])) > 1e-9,
              max(abs(np.array(stages.numbers(moved["regions[0].x"])) - [along, 30])) > 1e-9,
@@ -169,7 +170,7 @@ def pictured(folder):
     with contextlib.redirect_stdout(io.StringIO()):
         plot_uncertainty.draw(result, folder)
     wrong = [not (folder / "uncertainty.png").exists(), plot_uncertainty.stored(folder / "as-is") != json.loads(text),
-             not any("turns at a scale between 1 and 1.25" in line for line in lines),
+             not any("it turns under 1 to 1.25 times the motion" in line for line in lines),
              sum(line.startswith("| top: ") for line in lines) != 7]
     (folder / "as-is" / "uncertainty.json").write_text(text.replace('"until"', '"since"'))
     try:

@@ -68,8 +68,9 @@ def main():
         total += rows
         print(f"| {name} | {cells:g} | {len(rows)} | " + "{:.2f} | {:.2f} | {:.1e} | {:.1e} |".format(*shares(rows)), flush=True)
     kinds = sorted({row[1] for row in total})
-    for kind, rows in [("all", total), ("own grid", [row for row in total if row[2]]), ("shifted", [row for row in total if not row[2]]),
-                       *((kind, [row for row in total if row[1] == kind]) for kind in kinds)]:
+    groups = {"all": total, "own grid": [row for row in total if row[2]], "shifted": [row for row in total if not row[2]]}
+    groups |= {kind: [row for row in total if row[1] == kind] for kind in kinds}
+    for kind, rows in groups.items():
         if rows:
             print(f"| {kind} | | {len(rows)} | " + "{:.2f} | {:.2f} | {:.1e} | {:.1e} |".format(*shares(rows)))
 
