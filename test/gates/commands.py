@@ -153,7 +153,7 @@ def check_ours(words):
         elif path[6:] in BUILT:
             yield f"{path} is not built, so that this cannot be checked"
         return
-    for word in words[1:]:
+    for word in words[1:words.index("--") if "--" in words else None]:  # beyond are options of the programs that a script starts
         option = word.split("=")[0]
         if re.match(r"--[a-z]", word) and option not in options(path):
             yield f"{path} has no option {option}"
