@@ -15,6 +15,7 @@ from checking import report
 
 import convergence
 import grids
+import plot_page
 import plot_uncertainty
 import stages
 import turning
@@ -160,7 +161,7 @@ def repeated(folder):
 
 
 def pictured(folder):
-    """Table, JSON and picture of a series are made; the run folder's is taken by plot-run, one of another run is not."""
+    """Table, JSON, picture and the page's words are made; the run folder's is taken by plot-run, one of another run is not."""
     series, _ = uncertainty_study.series_of("layer", 0.5, folder, (0, 2, 3))
     result = uncertainty_report.report(series, {grid.name: grid.level == 2 for grid in series.grids},
                                        {"as-is": (1.0, 1.25, 1)})
@@ -169,7 +170,10 @@ def pictured(folder):
     lines = uncertainty_report.lines(result)
     with contextlib.redirect_stdout(io.StringIO()):
         plot_uncertainty.draw(result, folder)
-    wrong = [not (folder / "uncertainty.png").exists(), plot_uncertainty.stored(folder / "as-is") != json.loads(text),
+    bar = {"measures": {"moved_area": {"uncertainty": 12.34, "unit": "m²", "kind": "asymptotic"}}}
+    words = dict(plot_page.measures(plot_page.read_summary(folder / "as-is"), bar))
+    wrong = [not (folder / "uncertainty.png").exists(), words["moved area (over 1 m)"] != "0.0 m² ± 12 m²",
+             plot_uncertainty.stored(folder / "as-is") != json.loads(text),
              not any("it turns under 1 to 1.25 times the motion" in line for line in lines),
              sum(line.startswith("| top: ") for line in lines) != 7]
     (folder / "as-is" / "uncertainty.json").write_text(text.replace('"until"', '"since"'))
@@ -178,6 +182,36 @@ def pictured(folder):
         wrong.append(True)
     except plot_uncertainty.Missing:
         pass
+    return float(sum(wrong)), 0.0
+
+
+def left_out():
+    """A coarse grid that does not stand is left out and not tried again; a run that is interrupted ends the series."""
+    tried, code = [], 81
+
+    def both_stages(_programs, _case, folders, *_options):
+        tried.append(folders[1].name)
+        folders[1].mkdir(parents=True, exist_ok=True)
+        if folders[1].name.startswith("h2.3"):
+            raise stages.Failed(code)
+
+    settings = {**stages.settings_of(SETTINGS), "static.gravity": "9.81 m/s2", "output.slide.area": "10 m2"}
+    with tempfile.TemporaryDirectory() as folder, contextlib.redirect_stderr(io.StringIO()), \
+            mock.patch("uncertainty.resolved_case", return_value=settings), mock.patch("uncertainty.both_stages", both_stages):
+        arguments = argparse.Namespace(case=Path("c.yaml"), out=Path(folder), both=[], seismic=[], shifts=(0, 0, 1),
+                                       ratios=(1.5, 2.4), programs=Path("p"), bisections=0)
+        series = uncertainty.Series(arguments)
+        series.run_all()
+        first, again = list(tried), uncertainty.Series(arguments)
+        again.run_all()
+        wrong = [first != ["h2.368", "h2.368-shift1", "h1.5", "as-is"], tried != first + first[2:],
+                 [grid.name for grid in series.grids] != first[2:], again.left_out != {name: 81 for name in first[:2]}]
+        code = 75
+        try:
+            uncertainty.Series(argparse.Namespace(**{**vars(arguments), "both": ["--quiet"]})).run_all()
+            wrong.append(True)
+        except stages.Failed as failure:
+            wrong.append(failure.code != 75)
     return float(sum(wrong)), 0.0
 
 
@@ -192,7 +226,7 @@ def checks():
     outside, long = made()
     yield "made measures lie within their bars, 19 of 20", (outside, 0.05)
     yield "made measures: bars of at most three errors, half of them", (long, 0.5)
-    for check in (exact, kinds, profile, planned, options, turned, refused, varied):
+    for check in (exact, kinds, profile, planned, options, turned, refused, left_out, varied):
         yield check.__doc__.splitlines()[0], check()
     with tempfile.TemporaryDirectory() as folder, contextlib.redirect_stderr(io.StringIO()):
         for check in (known, repeated, pictured):
