@@ -10,7 +10,7 @@ from plot_common import WIDTH, Missing, label, save
 
 TITLES = {"moved_area": "moved area", "run_out": "displacement of its centre of mass",
           "peak_velocity": "speed of the moved ground, 99th percentile", "outline": "the free surface at the end"}
-MOST_BARS = 40  # measures that the picture shows; the table has all
+MOST_BARS = 60  # measures that the picture shows; the table has all
 MOST = 1000.0   # % of its value, at which a bar ends
 
 
@@ -70,6 +70,7 @@ def draw_bars(axis, measures):
     sound = [measures[name]["kind"] in ("asymptotic", "scatter") for name in names]
     axis.barh(range(len(names)), share, color=["C0" if good else "C1" for good in sound])
     axis.set_yticks(range(len(names)), [in_words(name) for name in names], fontsize=7)
+    axis.margins(y=0.01)
     axis.invert_yaxis()
     axis.set_xscale("log")
     for which in (axis.xaxis.set_major_formatter, axis.xaxis.set_minor_formatter):
