@@ -24,10 +24,12 @@ def trigger_of(file):
 
 
 def measures(run):
-    """The measures of the run-out, as summary.json has them."""
+    """The measures of the run-out, as summary.json has them, each with its numerical uncertainty where that is beside the run."""
     if "slide" not in run.summary:
         raise Missing("there is no summary.json with a slide yet: it is written when the run ends or is interrupted")
-    return html.words(plot_page.measures(run.summary))
+    sure = plot_page.uncertainty_of(run.folder)
+    bars = "± tells the numerical uncertainty at 95 %" if sure else "How sure they are is not known yet: scripts/uncertainty tells it"
+    return html.words(plot_page.measures(run.summary, sure)) + html.paragraph(bars + ".")
 
 
 def outline(run):
@@ -58,7 +60,7 @@ def outline(run):
 def series(run):
     """Moved area and its displacement, speed, toe over time."""
     with open_history(run.folder) as file:
-        trigger, slide = trigger_of(file), group_of(file, "slide")
+        trigger, slide, sure = trigger_of(file), group_of(file, "slide"), plot_page.uncertainty_of(run.folder)
         time, toe, advance = array(slide, "time"), array(slide, "toe"), array(slide, "toe_advance")
 
         def draw_toe(axis):
@@ -72,8 +74,8 @@ def series(run):
             other.grid(False)
             plot_page.mark_trigger(axis, trigger)
 
-        draws = {"Moved area and mean displacement": lambda axis: plot_page.draw_slide(axis, file, trigger),
-                 "Speed of the moved ground": lambda axis: plot_page.draw_speed(axis, file, trigger), "Toe": draw_toe}
+        draws = {"Moved area and mean displacement": lambda axis: plot_page.draw_slide(axis, file, trigger, sure),
+                 "Speed of the moved ground": lambda axis: plot_page.draw_speed(axis, file, trigger, sure), "Toe": draw_toe}
 
         return html.grid([html.panel(timed(draw), f"{name}; dotted: trigger.", (4.2, 3.2)) for name, draw in draws.items()], True)
 
