@@ -1,6 +1,7 @@
 #include "solver/stages/slide.hpp"
 
 #include "solver/stages/departures.hpp"
+#include "solver/stages/outline.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -46,18 +47,26 @@ double percentile(std::vector<double> values, double share)
   return *bound;
 }
 
-/// Closes gaps between bins that hold ground by straight lines: torn ground leaves bins empty that are no
-/// holes. Left of the first such bin and right of the last there is no ground.
-void close_gaps(std::vector<double>& height)
+constexpr double toe_reach = 2; ///< cells behind the toe, which hold the area of one or more
+
+struct Placed
 {
-  std::size_t last = height.size();
-  for (std::size_t k = 0; k < height.size(); ++k)
+  double x, area; ///< m along the direction of the slide; m2
+};
+
+/// How far ground goes that lies together: the greatest x with `area` (m2) or more within `reach` (m) behind
+/// it. Single particles that have flown on do not count, unless there is nothing else.
+double front_of(std::vector<Placed> ground, double reach, double area)
+{
+  std::sort(ground.begin(), ground.end(), [](const Placed& a, const Placed& b) { return a.x > b.x; });
+  double within = 0; // area of those from `k` on that are no more than `reach` behind it
+  std::size_t end = 0;
+  for (std::size_t k = 0; k < ground.size(); within -= ground[k++].area)
   {
-    if (std::isnan(height[k])) continue;
-    for (std::size_t g = last + 1; last < k && g < k; ++g)
-      height[g] = height[last] + (height[k] - height[last]) * double(g - last) / double(k - last);
-    last = k;
+    for (; end < ground.size() && ground[end].x >= ground[k].x - reach; ++end) within += ground[end].area;
+    if (within >= area) return ground[k].x;
   }
+  return ground.front().x;
 }
 
 /// Number for JSON, which has no NaN: null stands for none.
@@ -72,22 +81,6 @@ double MovedGround::advance() const
 {
   const double length = std::hypot(displacement[0], displacement[1]);
   return length > 0 ? (displacement[0] * velocity[0] + displacement[1] * velocity[1]) / length : 0;
-}
-
-Outline::Change Outline::greatest_rise() const
-{
-  Change greatest{0, NAN};
-  for (std::size_t k = 0; k < x.size(); ++k)
-    if (end[k] - start[k] > greatest.height) greatest = {end[k] - start[k], x[k]};
-  return greatest;
-}
-
-Outline::Change Outline::greatest_fall() const
-{
-  Change greatest{0, NAN};
-  for (std::size_t k = 0; k < x.size(); ++k)
-    if (start[k] - end[k] > greatest.height) greatest = {start[k] - end[k], x[k]};
-  return greatest;
 }
 
 void Slide::Peak::raise(double other, double when, std::array<double, 2> position)
@@ -141,7 +134,8 @@ MovedGround Slide::measure() const
   const Particles& p = main.particles;
   const Movement base = base_motion(model_);
   MovedGround all;
-  std::array<double, 2> now{INFINITY, -INFINITY}, before = now; // leftmost and rightmost x
+  std::array<double, 2> before{INFINITY, -INFINITY}; // leftmost and rightmost x
+  std::vector<Placed> places;
   std::vector<double> speeds;
   for (int k = 0; k < p.size(); ++k)
   {
@@ -153,7 +147,7 @@ MovedGround Slide::measure() const
     all.displacement[1] += p.mass[k] * m.uy;
     all.velocity[0] += p.mass[k] * m.vx;
     all.velocity[1] += p.mass[k] * m.vy;
-    now = {std::min(now[0], p.x[k]), std::max(now[1], p.x[k])};
+    places.push_back({p.x[k], model_.reference_volume[p.id[k]]});
     before = {std::min(before[0], p.reference_x[k]), std::max(before[1], p.reference_x[k])};
     speeds.push_back(m.speed());
     if (speeds.size() > 1 && speeds.back() <= all.velocity_point) continue;
@@ -163,9 +157,12 @@ MovedGround Slide::measure() const
   if (speeds.empty()) return all;
   for (auto* sum : {&all.displacement, &all.velocity})
     for (double& value : *sum) value /= all.mass;
-  const int front = all.displacement[0] >= 0 ? 1 : 0; // to the right or to the left
-  all.toe = now[front];
-  all.toe_advance = std::fabs(now[front] - before[front]);
+  const bool right = all.displacement[0] >= 0;
+  for (Placed& place : places) place.x *= right ? 1 : -1;
+  const double h = main.grid.spacing;
+  const double front = front_of(std::move(places), toe_reach * h, (1 - 1e-9) * h * h);
+  all.toe = right ? front : -front;
+  all.toe_advance = std::fabs(all.toe - before[right ? 1 : 0]);
   all.velocity_99 = percentile(std::move(speeds), 0.99);
   return all;
 }
@@ -221,34 +218,6 @@ double Slide::trigger_time() const
   return NAN;
 }
 
-/// The top of the highest particle in each bin: its centre and half a particle spacing.
-Outline Slide::outline() const
-{
-  const Particles& p = model_.main->particles;
-  const double size = case_file_.grid.particle_spacing(), left = case_file_.domain.left;
-  const int count = static_cast<int>(std::lround(case_file_.domain.width() / size));
-  Outline line;
-  for (int k = 0; k < count; ++k) line.x.push_back(left + (k + 0.5) * size);
-  line.start.assign(count, NAN);
-  line.end.assign(count, NAN);
-  const auto raise = [&](std::vector<double>& height, double x, double y)
-  {
-    const double bin = std::floor((x - left) / size);
-    if (bin < 0 || bin >= count) return;
-    double& top = height[static_cast<std::size_t>(bin)];
-    top = std::isnan(top) ? y + size / 2 : std::max(top, y + size / 2);
-  };
-  for (int k = 0; k < p.size(); ++k)
-  {
-    raise(line.start, p.reference_x[k], p.reference_y[k]);
-    raise(line.end, p.x[k], p.y[k]);
-  }
-  for (const Departed& one : model_.main->departed) raise(line.start, one.reference_x, one.reference_y);
-  close_gaps(line.start);
-  close_gaps(line.end);
-  return line;
-}
-
 nlohmann::json Slide::peak(const Peak& peak) const
 {
   nlohmann::json result{{"value", peak.value}, {"time", number(peak.time)}};
@@ -258,7 +227,7 @@ nlohmann::json Slide::peak(const Peak& peak) const
 
 nlohmann::json Slide::summary() const
 {
-  const Outline line = outline();
+  const Outline line = outline_of(*model_.main, case_file_);
   const auto change = [](const Outline::Change& c) {
     return nlohmann::json{{"height", c.height}, {"x", number(c.x)}};
   };
@@ -279,7 +248,7 @@ nlohmann::json Slide::summary() const
 
 void Slide::write(h5::File& file) const
 {
-  const Outline line = outline();
+  const Outline line = outline_of(*model_.main, case_file_);
   h5::Group group = file.create_group("outline");
   group.write("x", std::span<const double>(line.x), {line.x.size()}, "m");
   for (const auto& [name, height] : {std::pair{"start", &line.start}, std::pair{"end", &line.end}})

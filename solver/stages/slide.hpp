@@ -16,28 +16,14 @@ struct MovedGround
   double mass = 0;                      ///< kg per m
   std::array<double, 2> displacement{}; ///< of the centre of mass, relative to the base, m
   std::array<double, 2> velocity{};     ///< of the centre of mass, relative to the base, m/s
-  double toe = NAN;                     ///< x of the particle farthest in the direction of the slide, m
-  double toe_advance = 0;               ///< from the x of the one that was farthest at the start, m
+  double toe = NAN;                     ///< farthest x of what lies together, see front_of, m
+  double toe_advance = 0;               ///< from the x of the particle that was farthest at the start, m
   double velocity_99 = 0;               ///< 99th percentile of the particles' speed relative to the base, m/s
   double velocity_point = 0;            ///< greatest such speed, m/s
   std::array<double, 2> point{NAN, NAN}; ///< where, m
 
   /// Speed of the centre of mass in the direction of its displacement, m/s.
   double advance() const;
-};
-
-/// Height of the free surface over x, in bins of one particle spacing over the width of the domain (m).
-struct Outline
-{
-  std::vector<double> x, start,
-      end; ///< `start`: when the shaking began; `end`: now. NaN where there is no ground
-
-  struct Change
-  {
-    double height, x; ///< m; NaN where the ground has not changed its outline
-  };
-  Change greatest_rise() const;
-  Change greatest_fall() const;
 };
 
 /// Measures of a slide. Motion counts relative to the base of the left free-field column, or to the grid
@@ -57,7 +43,6 @@ public:
   /// When the slide began, s: `early` of the ground that has moved by now was out of place
   /// (SlideSettings::out_of_place) and did not come back. NaN: none has moved.
   double trigger_time() const;
-  Outline outline() const;
   nlohmann::json summary() const;
   /// Writes `/outline` and the trigger time.
   void write(h5::File& file) const;

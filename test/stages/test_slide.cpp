@@ -1,5 +1,6 @@
 // Measures of the run-out, on ground that is moved by hand.
 
+#include "solver/stages/outline.hpp"
 #include "solver/stages/slide.hpp"
 #include "test/stages/ground.hpp"
 
@@ -81,6 +82,19 @@ TEST_CASE("a slide to the left has its toe on the left", "[stages]")
   CHECK(block.slide.now().toe_advance == Approx(2));
 }
 
+TEST_CASE("particles that have flown on alone are not the toe of a slide", "[stages]")
+{
+  SlidingBlock block;
+  block.move(0, 3, 0, 0, 0, 0);
+  Particles& p = block.model.main->particles;
+  int flown = 0;
+  for (int k = 0; k < p.size() && flown < 3; ++k)
+    if (SlidingBlock::slides(p.reference_x[k], p.reference_y[k])) p.x[k] = 30 + 0.1 * ++flown;
+  REQUIRE(flown == 3); // of four in a cell
+  block.sample(1);
+  CHECK(block.slide.now().toe == Approx(7.75 + 3));
+}
+
 TEST_CASE("a model of laboratory size has a slide where centimetres count", "[stages]")
 {
   SlidingBlock usual, small({.moved = 0.01, .area = 0.01});
@@ -149,7 +163,7 @@ TEST_CASE("the outline holds the surface before and after, level ground and the 
 {
   SlidingBlock block;
   block.move(0, 4, 2, 0, 0, 0); // onto the ground beside it
-  const Outline line = block.slide.outline();
+  const Outline line = outline_of(*block.model.main, block.case_file);
   REQUIRE(line.x.size() == 40);
   for (std::size_t k = 0; k < line.x.size(); ++k)
   {

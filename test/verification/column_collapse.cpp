@@ -22,25 +22,24 @@ struct Deposit
   double run_out, height;
 };
 
-constexpr double reach = 0.1, layer = 0.02; // m: a front is where a layer so thin has begun
+constexpr double reach = 0.1, layer = 0.02; // m: sand is one deposit as far as a layer so thick goes on
 
-/// The front by the sand behind it, and the depth of the sand in the cell at the wall.
+/// The front of the sand that lies together, and the depth of the sand in the cell at the wall. Single
+/// particles that have flown on are no deposit: it ends where the next `reach` holds less than the layer, or
+/// one particle at the most.
 Deposit deposit_of(const Domain& domain)
 {
   const Particles& p = domain.particles;
   const double volume = p.mass[0] / domain.materials[0].elastic().density; // undeformed, the same for all
+  const auto least =
+      std::max<std::ptrdiff_t>(2, static_cast<std::ptrdiff_t>(std::ceil(layer * reach / volume)));
   std::vector<double> x = p.x;
   std::sort(x.begin(), x.end());
-  double front = 0;
-  std::size_t behind = 0;
-  for (std::size_t k = 0; k < x.size(); ++k)
-  {
-    while (x[behind] < x[k] - reach) ++behind;
-    if (static_cast<double>(k - behind + 1) * volume / reach >= layer) front = x[k];
-  }
+  auto front = x.begin();
+  while (std::lower_bound(front, x.end(), *front + reach) - front >= least) ++front;
   const double h = domain.grid.spacing;
   const auto at_wall = std::lower_bound(x.begin(), x.end(), h) - x.begin();
-  return {front - width, static_cast<double>(at_wall) * volume / h};
+  return {*front - width, static_cast<double>(at_wall) * volume / h};
 }
 
 Deposit collapse(const std::filesystem::path& folder, double h, double aspect)
