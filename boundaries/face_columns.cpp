@@ -80,8 +80,11 @@ void FaceColumns::apply(Grid& g, const FaceNodes& nodes, double dt)
     if (g.mass[at.node] <= g.smallest_mass) continue;
     const auto [ux, uy] = column_of(at).velocity;
     const auto [rx, ry] = mobility(g, at.node, on_face(g, at.node, shares_[k]), dt);
-    g.velocity_x[at.node] -= 2 * rx * ux;
-    g.velocity_y[at.node] -= 2 * ry * uy;
+    const double change_x = -2 * rx * ux, change_y = -2 * ry * uy;
+    g.velocity_x[at.node] += change_x;
+    g.velocity_y[at.node] += change_y;
+    g.change_x[at.node] += change_x;
+    g.change_y[at.node] += change_y;
   }
 }
 

@@ -37,7 +37,7 @@ void Grid::build(std::vector<BlockIndex> wanted, bool with_dashpots, bool with_f
   for (auto* field : {&dashpot_x, &dashpot_y}) field->assign(with_dashpots ? count : 0, 0.0);
   for (auto* field : {&face_dashpot_x, &face_dashpot_y}) field->assign(with_face_dashpots ? count : 0, 0.0);
   share.clear();
-  for (auto* field : {&change_x, &change_y, &linked_mass}) field->clear();
+  for (auto* field : {&change_x, &change_y, &linked_mass, &gained_x, &gained_y}) field->clear();
 }
 
 void Grid::clear(int block)

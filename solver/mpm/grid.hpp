@@ -102,6 +102,7 @@ struct Grid
   NodeField velocity_x, velocity_y; ///< v* at the end of the step, m/s
   NodeField change_x, change_y;     ///< v* - P/m of the lumped mass, m/s; empty but for correct_inertia
   NodeField linked_mass;            ///< mass of nodes that take part in correct_inertia, kg
+  NodeField gained_x, gained_y;     ///< v* - P/m, which FLIP's particles take, m/s; empty without it
   /// Part of a node that belongs to the ground, for sums over nodes: 0 for images beyond a mirrored wall, 1/2
   /// on it, 1/4 where two walls meet; empty without walls.
   NodeField share;

@@ -116,23 +116,6 @@ struct Extremes
   }
 };
 
-/// Change of the nodes' velocity component over the step, v* - P/m.
-void read_change(const Grid& grid, const Neighbours& around, const NodeField& momentum, const Tile& velocity,
-                 Tile& change)
-{
-  change.value.fill(0);
-  for_each_run(grid, around,
-               [&](int node, int at, auto count)
-               {
-                 for (int k = 0; k < count; ++k)
-                 {
-                   const double m = grid.mass[node + k];
-                   if (m <= grid.smallest_mass) continue;
-                   change.value[at + k] = velocity.value[at + k] - momentum[node + k] / m;
-                 }
-               });
-}
-
 /// How particles take over the nodes' velocities.
 struct Transfer
 {
@@ -151,12 +134,12 @@ struct MotionFields
 class Component
 {
 public:
-  Component(const Grid& grid, const Neighbours& around, const NodeField& velocity, const NodeField& momentum,
+  Component(const Grid& grid, const Neighbours& around, const NodeField& velocity, const NodeField& gained,
             const Transfer& transfer)
       : transfer_(transfer)
   {
     read_tile(grid, around, velocity, velocity_);
-    if (transfer.flip) read_change(grid, around, momentum, velocity_, change_);
+    if (transfer.flip) read_tile(grid, around, gained, gained_);
   }
 
   /// Of n particles, k being the index of the first in the chunk and q in all:
@@ -176,7 +159,7 @@ public:
     store_first(x, load_first(x, n) + dt * v, n);
     double* const velocity = &particles.velocity[q];
     store_first(velocity,
-                flip ? load_first(velocity, n) + without_weights(sum_values(change_, cells, s, k)) : v, n);
+                flip ? load_first(velocity, n) + without_weights(sum_values(gained_, cells, s, k)) : v, n);
     store_first(&particles.affine_x[q], affine * r.moment_x, n);
     store_first(&particles.affine_y[q], affine * r.moment_y, n);
     store(&particles.gradient_x[k], slope * r.slope_x);
@@ -185,7 +168,7 @@ public:
 
 private:
   Transfer transfer_;
-  Tile velocity_, change_;
+  Tile velocity_, gained_;
 };
 
 /// Moves the particles of a block and updates their stress. Returns their greatest displacement component in
@@ -194,8 +177,8 @@ double update_block(Domain& domain, const OccupiedBlock& occupied, double dt)
 {
   const Grid& grid = domain.grid;
   const Transfer transfer{dt, grid.spacing, domain.settings.flip};
-  const Component x(grid, occupied.around, grid.velocity_x, grid.momentum_x, transfer);
-  const Component y(grid, occupied.around, grid.velocity_y, grid.momentum_y, transfer);
+  const Component x(grid, occupied.around, grid.velocity_x, grid.gained_x, transfer);
+  const Component y(grid, occupied.around, grid.velocity_y, grid.gained_y, transfer);
   const TileStencils tile(grid, occupied.block);
   ChunkCells at;
   Splines splines;

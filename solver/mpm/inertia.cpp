@@ -9,107 +9,101 @@ namespace
 /// Half the second moment of the product of two cubic splines, over h^2.
 constexpr double coefficient = 1.0 / 3;
 constexpr double none_below = 0.4, all_above = 0.75; // least over greatest mass of three nodes in a line
-constexpr double strong = 4;                         // dt c / m of a dashpot that a node follows
 
-/// Of a side or of the base, N s/m per m: the greater, not the sum, so that a corner is as a column's base
-/// is.
-double greatest_dashpot(const Grid& g, int node)
+inline Lanes lesser(const Lanes& a, const Lanes& b)
 {
-  return std::max(std::max(g.dashpot_x[node], g.dashpot_y[node]),
-                  std::max(g.face_dashpot_x[node], g.face_dashpot_y[node]));
+  return chosen(above(b, a), a, b);
 }
-
-/// Finds v* - P/m of a block's nodes, and the mass with which they take part.
-void prepare(Grid& g, int block, double dt)
+inline Lanes greater(const Lanes& a, const Lanes& b)
 {
-  const bool dashpots = !g.dashpot_x.empty();
-  for (int k = block * block_nodes; k < (block + 1) * block_nodes; ++k)
-  {
-    const double m = g.mass[k];
-    const bool active = m > g.smallest_mass;
-    const double inverse = 1 / (active ? m : 1);
-    g.change_x[k] = active ? g.velocity_x[k] - g.momentum_x[k] * inverse : 0;
-    g.change_y[k] = active ? g.velocity_y[k] - g.momentum_y[k] * inverse : 0;
-    const double dashpot = dashpots ? greatest_dashpot(g, k) : 0;
-    g.linked_mass[k] = active && dt * dashpot < strong * m ? m : 0;
-  }
+  return chosen(above(b, a), b, a);
 }
 
-inline double lesser(double a, double b)
+/// How even the masses of nodes and of the two beside each are: 1 where they hardly differ, 0 at a surface.
+template <int step>
+Lanes evenness_of(const double* m)
 {
-  return a < b ? a : b;
+  const Lanes before = load_as<Lanes>(m - step), own = load_as<Lanes>(m), after = load_as<Lanes>(m + step);
+  const Lanes least = lesser(lesser(before, own), after), greatest = greater(greater(before, own), after);
+  if (bits(above(all_above * greatest, least)) == 0) return Lanes{} + 1;
+  const Lanes ratio = least / greater(greatest, Lanes{} + std::numeric_limits<double>::min());
+  return greater(lesser((ratio - none_below) * (1 / (all_above - none_below)), Lanes{} + 1), Lanes{});
 }
-inline double greater(double a, double b)
-{
-  return a > b ? a : b;
-}
+
+/// The rows of a tile from the one below its block to the one above: what links of its nodes depend on.
+constexpr int first = tile_index(-tile_margin, -1), end = tile_index(-tile_margin, block_cells + 1);
+static_assert((end - first) % lanes == 0);
 
 /// links[i] = m_ij / 3 of each node i of a tile and the node j = i + step, the next one of the row or column.
-/// A link is as even as the less even of its nodes: `evenness` of a node goes by least over greatest mass of
-/// itself and the two beside it. Where `face` is not zero, at the base's face, unequal masses do not fade it:
-/// the face's dashpots hold the light nodes.
+/// A link is as even as the less even of its nodes. Where `face` is not zero, at the base's face, unequal
+/// masses do not fade it: the face's dashpots hold the light nodes.
 template <int step>
-void link(const Tile& mass, const Tile& face, Tile& links)
+void link(const Tile& mass, const Tile* face, Tile& links)
 {
   Tile evenness;
-  const double* __restrict m = mass.value.data();
-  double* __restrict e = evenness.value.data();
-  double* __restrict out = links.value.data();
-  for (int t = 0; t < step; ++t) e[t] = e[tile_size - 1 - t] = 0;
-  for (int t = step; t < tile_size - step; ++t)
+  const double* const m = mass.value.data();
+  double* const e = evenness.value.data();
+  for (int t = first; t < end; t += lanes)
   {
-    const double a = m[t - step], b = m[t], c = m[t + step];
-    const double least = lesser(lesser(a, b), c), greatest = greater(greater(a, b), c);
-    const double ratio = least / greater(greatest, std::numeric_limits<double>::min());
-    const double share = (ratio - none_below) * (1 / (all_above - none_below));
-    e[t] = face.value[t] > 0 ? 1 : greater(lesser(share, 1), 0);
+    const Lanes share = evenness_of<step>(m + t);
+    store(e + t, face ? chosen(above(load_as<Lanes>(&face->value[t]), Lanes{}), Lanes{} + 1, share) : share);
   }
-  for (int t = 0; t < tile_size - step; ++t)
-    out[t] = coefficient * lesser(m[t], m[t + step]) * lesser(e[t], e[t + step]);
+  for (int t = end; t < end + step; ++t) e[t] = 0;
+  for (int t = first; t < end; t += lanes)
+  {
+    const auto both = [&](const double* of)
+    { return lesser(load_as<Lanes>(of + t), load_as<Lanes>(of + t + step)); };
+    store(&links.value[t], coefficient * both(m) * both(e));
+  }
 }
 
-/// v_i += 1/m_i sum_j m_ij / 3 (a_i - a_j) dt, `change` being a dt: one component of a block's velocities.
-/// `across` and `up` are the links to the right and above.
-void add_exchange(const Tile& mass, const Tile& across, const Tile& up, const Tile& change, double* velocity)
+/// Links of a block's nodes to the right and above, and the change of velocity by which they exchange
+/// momentum.
+struct Exchange
 {
-  constexpr int left = 1, below = tile_stride;
-  for (int row = 0; row < block_cells; ++row)
+  Tile mass, across, up;
+
+  /// Of the row of nodes that begins at t of the tile: sum_j m_ij / 3 (a_i - a_j), `change` being a dt.
+  Lanes sum(const Tile& change, int t) const
   {
-    const int start = tile_index(0, row);
-    const double *m = &mass.value[start], *x = &across.value[start], *y = &up.value[start];
-    const double* a = &change.value[start];
-    double* __restrict v = velocity + row * block_cells;
-    for (int k = 0; k < block_cells; ++k)
-    {
-      const double sum = x[k - left] * (a[k] - a[k - left]) + x[k] * (a[k] - a[k + left]) +
-                         y[k - below] * (a[k] - a[k - below]) + y[k] * (a[k] - a[k + below]);
-      v[k] += m[k] > 0 ? sum / m[k] : 0;
-    }
+    constexpr int left = 1, below = tile_stride;
+    const auto at = [&](const Tile& tile, int node) { return load_as<Lanes>(&tile.value[node]); };
+    const Lanes a = at(change, t);
+    return at(across, t - left) * (a - at(change, t - left)) + at(across, t) * (a - at(change, t + left)) +
+           at(up, t - below) * (a - at(change, t - below)) + at(up, t) * (a - at(change, t + below));
   }
-}
+};
 
 void correct_block(Grid& g, int block)
 {
   const int begin = block * block_nodes;
   const auto own = g.linked_mass.begin() + begin;
   if (std::all_of(own, own + block_nodes, [](double m) { return m <= 0; })) return;
-  Tile mass, across, up, change, face;
-  read_tile(g, g.neighbours[block], g.linked_mass, mass);
-  face.value.fill(0);
-  link<1>(mass, face, across);
-  if (!g.face_dashpot_x.empty()) read_tile(g, g.neighbours[block], g.face_dashpot_x, face);
-  link<tile_stride>(mass, face, up);
-  read_tile(g, g.neighbours[block], g.change_x, change);
-  add_exchange(mass, across, up, change, &g.velocity_x[begin]);
-  read_tile(g, g.neighbours[block], g.change_y, change);
-  add_exchange(mass, across, up, change, &g.velocity_y[begin]);
+  const Neighbours& around = g.neighbours[block];
+  Exchange exchange;
+  Tile x, y, face;
+  read_tile(g, around, g.linked_mass, exchange.mass);
+  const bool faces = !g.face_dashpot_x.empty();
+  if (faces) read_tile(g, around, g.face_dashpot_x, face);
+  link<1>(exchange.mass, nullptr, exchange.across);
+  link<tile_stride>(exchange.mass, faces ? &face : nullptr, exchange.up);
+  read_tile(g, around, g.change_x, x);
+  read_tile(g, around, g.change_y, y);
+  for (int k = 0; k < block_nodes; k += lanes)
+  {
+    const int t = tile_index(k % block_cells, k / block_cells);
+    const Lanes m = load_as<Lanes>(&exchange.mass.value[t]);
+    const Selection linked = above(m, Lanes{});
+    const Lanes inverse = chosen(linked, 1 / chosen(linked, m, Lanes{} + 1), Lanes{});
+    double *const to_x = &g.velocity_x[begin + k], *const to_y = &g.velocity_y[begin + k];
+    store(to_x, load_as<Lanes>(to_x) + inverse * exchange.sum(x, t));
+    store(to_y, load_as<Lanes>(to_y) + inverse * exchange.sum(y, t));
+  }
 }
 } // namespace
 
-void correct_inertia(Grid& g, double dt)
+void correct_inertia(Grid& g)
 {
-  for (auto* field : {&g.change_x, &g.change_y, &g.linked_mass}) field->resize(g.nodes());
-  g.for_each_block([&](int k) { prepare(g, k, dt); });
   g.for_each_block([&](int k) { correct_block(g, k); });
 }
 } // namespace mpm

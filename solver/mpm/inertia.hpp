@@ -20,7 +20,8 @@ struct Grid;
 /// bulk the stable Courant number falls from 1.77 to 1.19, still above stable_courant_number. Nodes that
 /// follow a dashpot rather than their own mass (dt c / m > 4) take no part.
 ///
-/// To be called after the equation of motion. Leaves v* - P/m of the lumped one in Grid::change_x and
-/// change_y; boundaries mirror the corrected velocities afterwards.
-void correct_inertia(Grid& grid, double dt);
+/// To be called after the equation of motion, which leaves the accelerations in Grid::change_x and change_y
+/// and m_i, or 0 for nodes that take no part, in Grid::linked_mass; boundaries mirror the corrected
+/// velocities afterwards.
+void correct_inertia(Grid& grid);
 } // namespace mpm

@@ -7,11 +7,16 @@ namespace mpm
 {
 namespace
 {
+/// dt c / m of a dashpot that a node follows rather than its own mass.
+constexpr double strong = 4;
+
 struct Parameters
 {
   double dt;            ///< s
   double smallest_mass; ///< of nodes that move, kg per m
   double damping;       ///< beta of eq. (1)
+  bool corrected;       ///< whether correct_inertia follows
+  bool flip;            ///< whether particles take what the nodes gained
 };
 
 /// Neighbouring nodes of a row, one a lane; those without mass count as 1 kg and are left out.
@@ -43,7 +48,7 @@ inline Lanes taken_by_damping(const Parameters& a, const Lanes& force, const Lan
 /// One component of the nodes' motion in the step.
 struct Motion
 {
-  Lanes momentum, force, before, after;
+  Lanes momentum, force, before, change, after;
 
   Motion(const Nodes& nodes, const NodeField& momenta, const NodeField& forces)
       : momentum(nodes.of(momenta)), force(nodes.of(forces)), before(nodes.inverse_mass * momentum)
@@ -65,7 +70,8 @@ struct Motion
       pushed -= dashpot * before;
       inverse = 1 / (nodes.mass + 0.5 * a.dt * dashpot);
     }
-    after = chosen(nodes.active, before + a.dt * inverse * pushed, Lanes{});
+    change = chosen(nodes.active, a.dt * inverse * pushed, Lanes{});
+    after = chosen(nodes.active, before, Lanes{}) + change;
     return after;
   }
 };
@@ -82,7 +88,7 @@ struct WorkSums
   {
     const Lanes middle = 0.5 * part * (m.before + m.after);
     work += impulse * middle;
-    damping += a.dt * taken_by_damping(a, m.force, m.before) * middle;
+    if (a.damping > 0) damping += a.dt * taken_by_damping(a, m.force, m.before) * middle;
     momentum[component] += 0.5 * part * (m.momentum + nodes.mass * m.after);
   }
   StepWork total() const
@@ -105,20 +111,42 @@ Lanes counted(const Grid& g, const Nodes& nodes)
   return chosen(nodes.active, g.share.empty() ? Lanes{} + 1 : nodes.of(g.share), Lanes{});
 }
 
-/// Finds a block's velocities v* and, where nothing corrects them after, what the forces did.
-StepWork solve_block(Grid& g, int block, const Parameters& a, bool final)
+/// The greatest of the dashpots at nodes, N s/m per m: not their sum, so that a corner is as a column's base
+/// is.
+Lanes greatest_dashpot(const Grid& g, const Nodes& nodes)
+{
+  Lanes greatest{};
+  for (const auto* field : {&g.dashpot_x, &g.dashpot_y, &g.face_dashpot_x, &g.face_dashpot_y})
+  {
+    if (field->empty()) continue;
+    const Lanes c = nodes.of(*field);
+    greatest = chosen(above(c, greatest), c, greatest);
+  }
+  return greatest;
+}
+
+/// Finds a block's velocities v*, what correct_inertia or the particles need of their change, and, where
+/// nothing corrects them after, what the forces did.
+StepWork solve_block(Grid& g, int block, const Parameters& a)
 {
   WorkSums sum;
   for (int k = block * block_nodes; k < (block + 1) * block_nodes; k += lanes)
   {
     const Nodes nodes(g, k, a.smallest_mass);
-    Lanes vx{}, vy{};
+    Lanes vx{}, vy{}, change_x{}, change_y{}, linked{};
     if (!nodes.empty())
     {
       Motion x(nodes, g.momentum_x, g.force_x), y(nodes, g.momentum_y, g.force_y);
       vx = x.solve(a, nodes, g.dashpot_x);
       vy = y.solve(a, nodes, g.dashpot_y);
-      if (final)
+      change_x = x.change;
+      change_y = y.change;
+      if (a.corrected)
+      {
+        const Selection own = above(strong * nodes.mass, a.dt * greatest_dashpot(g, nodes));
+        linked = chosen(own, chosen(nodes.active, nodes.mass, Lanes{}), Lanes{});
+      }
+      else
       {
         const Lanes part = counted(g, nodes);
         sum.add(0, a, part, nodes, x, nodes.mass * x.after - x.momentum);
@@ -127,22 +155,38 @@ StepWork solve_block(Grid& g, int block, const Parameters& a, bool final)
     }
     store(&g.velocity_x[k], vx);
     store(&g.velocity_y[k], vy);
+    if (a.corrected) store(&g.linked_mass[k], linked);
+    if (a.corrected || a.flip)
+    {
+      store(a.corrected ? &g.change_x[k] : &g.gained_x[k], change_x);
+      store(a.corrected ? &g.change_y[k] : &g.gained_y[k], change_y);
+    }
   }
   return sum.total();
 }
 
-/// What the forces did to nodes whose velocities were corrected. What neighbours exchange is no work of a
-/// force: it counts as the transfers'.
-StepWork corrected_work(const Grid& g, int block, const Parameters& a)
+/// What the forces did to nodes whose velocities were corrected, and what these gained. What neighbours
+/// exchange is no work of a force: it counts as the transfers'.
+StepWork finish_corrected(Grid& g, int block, const Parameters& a)
 {
   WorkSums sum;
   for (int k = block * block_nodes; k < (block + 1) * block_nodes; k += lanes)
   {
     const Nodes nodes(g, k, a.smallest_mass);
-    if (nodes.empty()) continue;
+    if (nodes.empty())
+    {
+      if (a.flip)
+        for (auto* field : {&g.gained_x, &g.gained_y}) store(&(*field)[k], Lanes{});
+      continue;
+    }
     Motion x(nodes, g.momentum_x, g.force_x), y(nodes, g.momentum_y, g.force_y);
     x.after = nodes.of(g.velocity_x);
     y.after = nodes.of(g.velocity_y);
+    if (a.flip)
+    {
+      store(&g.gained_x[k], chosen(nodes.active, x.after - x.before, Lanes{}));
+      store(&g.gained_y[k], chosen(nodes.active, y.after - y.before, Lanes{}));
+    }
     const Lanes part = counted(g, nodes);
     sum.add(0, a, part, nodes, x, nodes.mass * nodes.of(g.change_x));
     sum.add(1, a, part, nodes, y, nodes.mass * nodes.of(g.change_y));
@@ -199,17 +243,21 @@ void solve_grid(Domain& domain, double dt)
   for (const Material& material : domain.materials) density = std::max(density, material.elastic().density);
   const double cell_mass = density * grid.spacing * grid.spacing;
   grid.smallest_mass = 1e-14 * cell_mass; // of a full cell of the densest ground
-  const Parameters a{dt, grid.smallest_mass, domain.settings.local_damping};
+  const Parameters a{dt, grid.smallest_mass, domain.settings.local_damping,
+                     domain.settings.consistent_inertia, domain.settings.flip};
+  if (a.corrected)
+    for (auto* field : {&grid.change_x, &grid.change_y, &grid.linked_mass}) field->resize(grid.nodes());
+  if (a.flip)
+    for (auto* field : {&grid.gained_x, &grid.gained_y}) field->resize(grid.nodes());
   std::vector<StepWork> works(blocks);
-  grid.for_each_block([&](int k)
-                      { works[k] = solve_block(grid, k, a, !domain.settings.consistent_inertia); });
-  if (domain.settings.consistent_inertia)
+  grid.for_each_block([&](int k) { works[k] = solve_block(grid, k, a); });
+  if (a.corrected)
   {
     for (const auto& boundary : domain.boundaries) boundary->apply_dashpots(grid, dt);
-    correct_inertia(grid, dt);
+    correct_inertia(grid);
     for (const auto& boundary : domain.boundaries) boundary->mirror_velocities(grid);
     hold_nodes(grid, domain.rest.held);
-    grid.for_each_block([&](int k) { works[k] = corrected_work(grid, k, a); });
+    grid.for_each_block([&](int k) { works[k] = finish_corrected(grid, k, a); });
   }
   domain.energy.step = sum_of(works, dt);
   if (domain.settings.measure_force_balance) domain.measures.force_balance = balance_of(domain, cell_mass);

@@ -13,6 +13,9 @@ std::array<std::vector<double>*, 4> stresses(Particles& p)
   return {&p.stress_xx, &p.stress_yy, &p.stress_zz, &p.stress_xy};
 }
 
+/// One number of each particle for each component of its stress.
+using Components = std::array<Values, 4>;
+
 /// Fits of affine fields a + b_x (x - x_i) / h + b_y (y - y_i) / h to values of one ground's particles around
 /// every node i, by least squares with weights w V.
 class NodeFits
@@ -25,19 +28,25 @@ public:
            { out = {w[0], w[1], w[2], w[1] * x, w[1] * y, w[2] * y}; });
   }
 
-  /// values -= what their fits give at the particles.
-  void take_fit(Values& values) const
+  /// values -= what their fits give at the particles, component by component.
+  void take_fit(Components& values) const
   {
-    std::array<NodeField, 3> fit;
-    sum<3>(fit,
-           [&](int p, std::array<Row, 3>& w, const Row&, double, std::array<Row, 3>& out) {
-             out = {w[0] * values[p], w[1] * values[p], w[2] * values[p]};
-           });
-    for (int k = 0; k < domain_.grid.nodes(); ++k) solve(k, fit);
+    std::array<NodeField, 3 * components> fit;
+    sum<3 * components>(
+        fit,
+        [&](int p, std::array<Row, 3>& w, const Row&, double, std::array<Row, 3 * components>& out)
+        {
+          for (int c = 0; c < components; ++c)
+            for (int f = 0; f < 3; ++f) out[3 * c + f] = values[c][p] * w[f];
+        });
+    for (int k = 0; k < domain_.grid.nodes(); ++k)
+      for (int c = 0; c < components; ++c) solve(k, &fit[3 * c]);
     flow_.for_each_near([&](const OccupiedBlock& occupied) { take(occupied, fit, values); });
   }
 
 private:
+  static constexpr int components = std::tuple_size_v<Components>;
+
   /// Sums over the particles: `make` gets a particle, its w V, w V x and w V y, x and y being its distances
   /// from the nodes of a row over h.
   template <std::size_t count, class Make>
@@ -76,7 +85,7 @@ private:
   }
 
   /// a, b_x and b_y of a node out of the sums of w V q, w V q x and w V q y.
-  void solve(int k, std::array<NodeField, 3>& fit) const
+  void solve(int k, NodeField* fit) const
   {
     const double W = moments_[0][k];
     if (W <= 0) return;
@@ -91,28 +100,33 @@ private:
     fit[2][k] = by;
   }
 
-  void take(const OccupiedBlock& occupied, const std::array<NodeField, 3>& fit, Values& values) const
+  void take(const OccupiedBlock& occupied, const std::array<NodeField, 3 * components>& fit,
+            Components& values) const
   {
     const Grid& grid = domain_.grid;
     const Particles& particles = domain_.particles;
     const double inverse = -grid.inverse_spacing();
-    std::array<Tile, 3> tiles;
-    for (std::size_t f = 0; f < 3; ++f) read_tile(grid, occupied.around, fit[f], tiles[f]);
+    std::array<Tile, 3 * components> tiles;
+    for (std::size_t f = 0; f < tiles.size(); ++f) read_tile(grid, occupied.around, fit[f], tiles[f]);
     const TileStencils at(grid, occupied.block);
     ground_.for_each(occupied,
                      [&](int p)
                      {
                        const Stencil sx = at.x(particles.x[p]), sy = at.y(particles.y[p]);
-                       Row sum{};
-                       for (int j = 0; j < 4; ++j)
+                       const Row x = inverse * sx.offset;
+                       for (int c = 0; c < components; ++c)
                        {
-                         const int node = TileStencils::first_node(sx, sy) + j * tile_stride;
-                         const auto row = [&](int f) { return load_as<Row>(&tiles[f].value[node]); };
-                         sum += sy.weight[j] *
-                                (row(0) + inverse * sx.offset * row(1) + inverse * sy.offset[j] * row(2));
+                         Row sum{};
+                         for (int j = 0; j < 4; ++j)
+                         {
+                           const int node = TileStencils::first_node(sx, sy) + j * tile_stride;
+                           const auto row = [&](int f)
+                           { return load_as<Row>(&tiles[3 * c + f].value[node]); };
+                           sum += sy.weight[j] * (row(0) + x * row(1) + inverse * sy.offset[j] * row(2));
+                         }
+                         sum *= sx.weight;
+                         values[c][p] -= (sum[0] + sum[1]) + (sum[2] + sum[3]);
                        }
-                       sum *= sx.weight;
-                       values[p] -= (sum[0] + sum[1]) + (sum[2] + sum[3]);
                      });
   }
 
@@ -178,15 +192,14 @@ void filter_stresses(Domain& domain, const Flow& flow)
   Particles& p = domain.particles;
   const Values flowed = spread(domain, flow);
   const double before = elastic_energy(domain);
-  std::array<Values, 4> rest;
+  Components rest;
   for (int c = 0; c < 4; ++c) rest[c] = *stresses(p)[c];
   for (std::size_t m = 0; m < domain.materials.size(); ++m)
   {
     if (domain.materials[m].origin >= 0) continue;
     const Ground ground(domain, static_cast<int>(m));
     const NodeFits fits(domain, flow, ground);
-    for (Values& values : rest)
-      for (int order = 0; order < 2; ++order) fits.take_fit(values);
+    for (int order = 0; order < 2; ++order) fits.take_fit(rest);
     flow.for_each_acting(
         [&](const OccupiedBlock& occupied)
         {

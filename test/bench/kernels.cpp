@@ -66,6 +66,7 @@ void gather(benchmark::State& state)
 {
   Domain domain = ground(static_cast<int>(state.range(0)));
   domain.settings.flip = state.range(1) != 0;
+  solve_grid(domain, time_step);
   for (auto _ : state) grid_to_particles(domain, time_step);
   per_particle(state, domain.particles.size());
 }

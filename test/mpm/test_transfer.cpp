@@ -144,6 +144,9 @@ TEST_CASE("Particles that have left their cells since the sort read what the def
   {
     g.velocity_x[node] = random(-1, 1);
     g.velocity_y[node] = random(-1, 1);
+    if (!flip) continue;
+    g.gained_x[node] = random(-1, 1);
+    g.gained_y[node] = random(-1, 1);
   }
   for (int k = 0; k < p.size(); ++k) // so that neighbours in the order stand in several cells
   {
@@ -166,11 +169,10 @@ TEST_CASE("Particles that have left their cells since the sort read what the def
         const int node = g.node(x.first + i, y.first + j);
         REQUIRE(node >= 0);
         const double w = x.weight[i] * y.weight[j], now[2] = {g.velocity_x[node], g.velocity_y[node]};
-        const double momentum[2] = {g.momentum_x[node], g.momentum_y[node]};
         for (int c = 0; c < 2; ++c)
         {
           v[c] += w * now[c];
-          if (g.mass[node] > g.smallest_mass) change[c] += w * (now[c] - momentum[c] / g.mass[node]);
+          if (flip) change[c] += w * (c == 0 ? g.gained_x : g.gained_y)[node];
           C[c][0] += 3 / (h * h) * w * x.offset[i] * now[c];
           C[c][1] += 3 / (h * h) * w * y.offset[j] * now[c];
         }
@@ -186,4 +188,32 @@ TEST_CASE("Particles that have left their cells since the sort read what the def
   CHECK(velocity < 3 * rounding); // two sums and the particle's own velocity
   CHECK(position < 6 * rounding); // at up to 6 m
   CHECK(affine < 6 / h * rounding);
+}
+
+TEST_CASE("What FLIP's particles take is the nodes' velocity less what they brought", "[mpm]")
+{
+  const bool consistent = GENERATE(false, true);
+  const double h = 0.8, dt = 1e-3;
+  Domain domain = make_domain({{elastic(1e6), {-3 * h, h, 7 * h, 3.6667 * h}, h / 3}}, h, 0.4, 51);
+  domain.settings.flip = true;
+  domain.settings.consistent_inertia = consistent;
+  domain.settings.gravity_y = -9.81;
+  random_velocities(domain, 1, 52);
+  particles_to_grid(domain, dt);
+  solve_grid(domain, dt);
+  const Grid& g = domain.grid;
+  double error = 0, greatest = 0;
+  for (int k = 0; k < g.nodes(); ++k)
+  {
+    if (g.mass[k] <= g.smallest_mass)
+    {
+      CHECK(std::hypot(g.gained_x[k], g.gained_y[k]) == 0);
+      continue;
+    }
+    error = std::max({error, std::fabs(g.gained_x[k] - (g.velocity_x[k] - g.momentum_x[k] / g.mass[k])),
+                      std::fabs(g.gained_y[k] - (g.velocity_y[k] - g.momentum_y[k] / g.mass[k]))});
+    greatest = std::max({greatest, std::fabs(g.gained_y[k]), std::fabs(g.velocity_y[k])});
+  }
+  CHECK(greatest > 1e-3);
+  CHECK(error < 4 * std::numeric_limits<double>::epsilon() * greatest); // a quotient, a sum, a difference
 }
