@@ -1,5 +1,6 @@
 #include "io/case/case.hpp"
 
+#include "io/case/profiles.hpp"
 #include "io/case/sections.hpp"
 #include "io/common/error.hpp"
 #include "io/common/input_file.hpp"
@@ -38,6 +39,11 @@ GridSettings read_grid(Section grid)
 {
   GridSettings settings;
   settings.spacing = grid.number({"spacing", "cell size h"}, Dimension::length, Interval::positive());
+  settings.frequency = grid.number_or(
+      settings.frequency,
+      {"frequency", "highest frequency of S waves that the profiles quick, standard, fine and paper make "
+                    "cells for; changes nothing else"},
+      Dimension::frequency, Interval::positive());
   settings.particles_per_cell = grid.integer_or(
       settings.particles_per_cell, {"particles_per_cell", "particles along each side of a cell"}, 1, 10);
   settings.average_flow =
@@ -121,6 +127,22 @@ StaticSettings read_static(Section section)
   return s;
 }
 
+/// Puts a profile of every case into the tree. What it sets follows from the case as it is without, --set
+/// included; nothing in it speaks against cells that are tiny.
+void apply_standard_profile(Case& case_file, YamlNode& tree, Problems& problems)
+{
+  YamlNode without = tree;
+  Problems wrong;
+  for (const std::string& text : case_file.overrides) apply_override(without, text, wrong);
+  apply_override(without, "grid.spacing=1 mm", wrong);
+  Case draft = case_file;
+  read_parts(draft, without, wrong);
+  wrong.throw_if_any();
+  const ProfileChoice choice = choose(*standard_profile(case_file.profile), draft);
+  for (const auto& [key, value] : choice.values) apply_override(tree, key + "=" + value, problems);
+  case_file.chosen = choice.reasons;
+}
+
 /// All that was read, and what was looked at in another way as it stands.
 Settings::Entries resolved(const Case& case_file, const YamlNode& tree, Settings settings)
 {
@@ -168,7 +190,10 @@ Case load_case(const std::filesystem::path& path, const std::vector<std::string>
   YamlNode tree = parse_yaml(case_file.text, path.string(), problems);
   if (tree.kind == YamlNode::Kind::empty) problems.throw_if_any(); // not YAML: nothing more can be said
   // The profile first: --set has the last word.
-  apply_profile(tree, profile, problems);
+  std::vector<std::string> standard;
+  for (const StandardProfile& each : standard_profiles) standard.emplace_back(each.name);
+  if (!apply_profile(tree, profile, standard, problems) && standard_profile(profile) != nullptr)
+    apply_standard_profile(case_file, tree, problems);
   for (const std::string& text : overrides) apply_override(tree, text, problems);
   read_parts(case_file, tree, problems);
   problems.throw_if_any();

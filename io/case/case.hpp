@@ -30,6 +30,7 @@ enum class Interfaces
 struct GridSettings
 {
   double spacing = NAN;
+  double frequency = 10; ///< Hz up to which the profiles of every case carry S waves; no step knows it
   int particles_per_cell = 3;
   bool average_flow = true;    ///< bands soften by their slip over the width of the law, see average_flow
   bool average_volume = false; ///< volume changes of the cell, not of the particle
@@ -228,7 +229,8 @@ struct Case
 {
   std::filesystem::path path;
   std::string text;                   ///< the file as it stands
-  std::string profile;                ///< the one of `profiles` that was applied; empty: none
+  std::string profile;                ///< the profile that was applied; empty: none
+  std::vector<std::string> chosen;    ///< what a profile of every case has set in this one, and why
   std::vector<std::string> overrides; ///< `key.path=value`, as given by --set
   /// Every key with the value that it has after all, given or default, profile and overrides applied.
   Settings::Entries settings;
@@ -257,10 +259,10 @@ struct Case
 /// Fields that a frame can hold: those of every particle, and the laws' history variables.
 std::vector<std::string> frame_fields();
 
-/// Reads and checks a case. `profile` names one of its `profiles`, whose values win over the file's;
-/// `overrides` are `key.path=value` and win over both. `Error`: input_missing when the file cannot be read;
-/// bad_input with every problem of the file, one a line, as `FILE:LINE:COLUMN: key.path: what; what is
-/// allowed; did you mean ...?`.
+/// Reads and checks a case. `profile` names one of its `profiles`, whose values win over the file's, or one
+/// that every case has (profiles.hpp); `overrides` are `key.path=value` and win over both. `Error`:
+/// input_missing when the file cannot be read; bad_input with every problem of the file, one a line, as
+/// `FILE:LINE:COLUMN: key.path: what; what is allowed; did you mean ...?`.
 Case load_case(const std::filesystem::path& path, const std::vector<std::string>& overrides = {},
                const std::string& profile = {});
 } // namespace mpm

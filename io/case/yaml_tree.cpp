@@ -234,7 +234,8 @@ void apply_override(YamlNode& root, const std::string& override_text, Problems& 
   node->key_location = location;
 }
 
-void apply_profile(YamlNode& root, const std::string& wanted, Problems& problems)
+bool apply_profile(YamlNode& root, const std::string& wanted, const std::vector<std::string>& others,
+                   Problems& problems)
 {
   YamlNode profiles;
   profiles.kind = YamlNode::Kind::map;
@@ -244,7 +245,7 @@ void apply_profile(YamlNode& root, const std::string& wanted, Problems& problems
   {
     profiles = std::move(*found);
     root.children.erase(found);
-    if (!is_map(profiles, "profiles by name, as {quick: {grid.spacing: 1 m}}", problems)) return;
+    if (!is_map(profiles, "profiles by name, as {quick: {grid.spacing: 1 m}}", problems)) return false;
   }
   std::vector<std::string> names;
   for (const YamlNode& profile : profiles.children)
@@ -254,10 +255,17 @@ void apply_profile(YamlNode& root, const std::string& wanted, Problems& problems
     if (profile.key != wanted) continue;
     for (const YamlNode& setting : profile.children) apply_setting(root, setting, problems);
   }
-  if (wanted.empty() || std::find(names.begin(), names.end(), wanted) != names.end()) return;
-  std::string known = names.empty() ? "the case has no profiles" : "the case's profiles are";
+  const auto holds = [&](const std::vector<std::string>& all)
+  { return std::find(all.begin(), all.end(), wanted) != all.end(); };
+  if (wanted.empty() || holds(names)) return true;
+  if (holds(others)) return false;
+  std::string known = names.empty() ? "the case has none of its own" : "the case's profiles are";
   for (const std::string& name : names) known += (name == names.front() ? " " : ", ") + name;
+  known += "; every case has";
+  for (const std::string& name : others) known += (name == others.front() ? " " : ", ") + name;
+  names.insert(names.end(), others.begin(), others.end());
   problems.add({"--profile " + wanted, 0, 0}, "", "no such profile; " + known + suggestion(wanted, names));
+  return false;
 }
 
 std::vector<std::pair<std::string, std::string>> flattened(const YamlNode& root)

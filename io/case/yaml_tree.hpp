@@ -43,8 +43,10 @@ void apply_override(YamlNode& root, const std::string& override_text, Problems& 
 
 /// Takes `profiles` (`{NAME: {key.path: value, ...}}`) out of the tree and puts the values of the one called
 /// `wanted` into it as `apply_override` would; they keep their locations in the file. Empty: none is wanted.
-/// The form of all of them is checked, and an unknown name is a problem.
-void apply_profile(YamlNode& root, const std::string& wanted, Problems& problems);
+/// The form of all of them is checked. Returns whether the case has a profile of that name, or none is
+/// wanted; a name that is not in `others` either is a problem.
+bool apply_profile(YamlNode& root, const std::string& wanted, const std::vector<std::string>& others,
+                   Problems& problems);
 
 /// Every scalar of the tree: key path and text, in order.
 std::vector<std::pair<std::string, std::string>> flattened(const YamlNode& root);

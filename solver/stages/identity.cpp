@@ -20,10 +20,10 @@ bool shapes_ground(std::string_view key)
                              [&](std::string_view part) { return key.starts_with(part); });
 }
 
-/// The form of the file and what people call the case.
+/// The form of the file, what people call the case, and what its cells were chosen by.
 bool is_label(std::string_view key)
 {
-  return key == "schema" || key == "name";
+  return key == "schema" || key == "name" || key == "grid.frequency";
 }
 
 /// Where a record comes from and how it is written: the motion's digest tells what was made of it.
@@ -84,7 +84,7 @@ std::vector<std::string> ground_settings(const Case& case_file)
 {
   std::vector<std::string> lines;
   for (const auto& [key, value] : case_file.settings)
-    if (shapes_ground(key)) lines.push_back(key + " = " + rounded(value));
+    if (shapes_ground(key) && !is_label(key)) lines.push_back(key + " = " + rounded(value));
   for (const auto& [key, value] : edges(case_file)) lines.push_back(key + " = " + value);
   std::ranges::sort(lines);
   return lines;

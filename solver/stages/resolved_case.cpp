@@ -39,7 +39,10 @@ std::string resolved_case(const Case& case_file, const Options& options)
     for (const auto& [path, value] : settings.entries())
       if (path == record + ".scale") settings.set(path, number_text(std::stod(value) * options.scale));
   }
-  return fmt::format("# every default written out by {} {}\n", options.program, version::number) +
-         to_yaml(settings.entries());
+  std::string heading =
+      fmt::format("# every default written out by {} {}\n", options.program, version::number);
+  for (const std::string& reason : case_file.chosen)
+    heading += fmt::format("# profile {}: {}\n", case_file.profile, reason);
+  return heading + to_yaml(settings.entries());
 }
 } // namespace mpm

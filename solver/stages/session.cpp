@@ -9,6 +9,8 @@ Session::Session(Options given)
     : options(std::move(given)), log(options.verbosity, options.check ? Screen::answer : Screen::messages)
 {
   case_file = load_case(options.case_file, options.overrides, options.profile);
+  for (const std::string& reason : case_file.chosen) log.info("profile {}: {}", case_file.profile, reason);
+  if (!case_file.chosen.empty()) facts["profile_chose"] = case_file.chosen;
   for (const std::string& warning : case_file.warnings) log.warn("{}", warning);
 }
 

@@ -120,7 +120,7 @@ TEST_CASE("Overrides win, are recorded and are checked under their own name", "[
     CHECK(std::count(case_file.settings.begin(), case_file.settings.end(), setting) == 1);
 
   CHECK(refusal(small, {"grid.spacng=1 m"}) ==
-        "65\n--set grid.spacng=1 m: grid.spacng: unknown key 'spacng'; allowed: spacing, "
+        "65\n--set grid.spacng=1 m: grid.spacng: unknown key 'spacng'; allowed: spacing, frequency, "
         "particles_per_cell, softening, volume_average or interfaces; did you mean 'spacing'?\n");
   CHECK(refusal(small, {"grid.spacing=2"}) ==
         "65\n--set grid.spacing=2: grid.spacing: needs a unit: write '2 m'; units: m, mm, cm or km\n");
@@ -169,7 +169,8 @@ TEST_CASE("What a profile holds is checked as the file's own keys, at the profil
   CHECK(refusal(text, {}, "fine") ==
         "65\n"
         "case.yaml:16:19: grid.spacing: needs a unit: write '0.5 m'; units: m, mm, cm or km\n"
-        "case.yaml:17:5: grid.particle: unknown key 'particle'; allowed: spacing, particles_per_cell, "
+        "case.yaml:17:5: grid.particle: unknown key 'particle'; allowed: spacing, frequency, "
+        "particles_per_cell, "
         "softening, volume_average or interfaces; did "
         "you mean "
         "'particles_per_cell'?\n"
@@ -184,9 +185,11 @@ TEST_CASE("What a profile holds is checked as the file's own keys, at the profil
 TEST_CASE("An unknown profile is refused with the known ones", "[io]")
 {
   CHECK(refusal(small + "profiles: {fine: {}, coarse: {}}\n", {}, "coarze") ==
-        "65\n--profile coarze: no such profile; the case's profiles are fine, coarse; did you mean "
-        "'coarse'?\n");
-  CHECK(refusal(small, {}, "fine") == "65\n--profile fine: no such profile; the case has no profiles\n");
+        "65\n--profile coarze: no such profile; the case's profiles are fine, coarse; every case "
+        "has quick, standard, fine, paper; did you mean 'coarse'?\n");
+  CHECK(refusal(small, {}, "fin") ==
+        "65\n--profile fin: no such profile; the case has none of its own; every "
+        "case has quick, standard, fine, paper; did you mean 'fine'?\n");
 }
 
 TEST_CASE("A time step beyond the stable one is refused with the reason", "[io]")

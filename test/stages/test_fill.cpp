@@ -13,7 +13,7 @@ namespace
 Case hill_case(Surface surface, double spacing, int per_cell)
 {
   Case case_file;
-  case_file.grid = {spacing, per_cell};
+  case_file.grid = {.spacing = spacing, .particles_per_cell = per_cell};
   case_file.domain = {-20, 60, 0};
   case_file.surfaces = {std::move(surface)};
   case_file.materials = {{"soil", Elastic{}, {}}};

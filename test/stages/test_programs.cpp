@@ -72,6 +72,35 @@ TEST_CASE("a profile, --set and a case that says the same itself are one run", "
   CHECK_FALSE(fs::exists(bench / "b"));
 }
 
+TEST_CASE("both stages come to the same cells by a profile of every case, whatever the motion", "[stages]")
+{
+  const Bench bench;
+  const Arguments options{"--profile",       "quick", "--set",
+                          "static.ramp=1 s", "--set", "static.until.unbalanced=1e-3"};
+  REQUIRE(bench.run_static("static", options).code == 0);
+  put(bench / "other.txt", sine(6, 8));
+  Arguments shaken = options;
+  shaken.insert(shaken.end(), {"--set", "seismic.duration=0.02 s", "--motion", bench.path("other.txt"),
+                               "--record-format", "column", "--record-dt", "0.01", "--record-unit", "m/s2"});
+  const Ending ending = bench.run_seismic("run", shaken);
+  INFO(ending.said);
+  REQUIRE(ending.code == 0);
+  // What was chosen, and why: on the screen, in the summary and with the case. 5 m that can slide over 8
+  // cells.
+  CHECK_THAT(ending.said, Contains("profile quick: grid.spacing 0.6 m, 50 of which"));
+  const auto summary = nlohmann::json::parse(contents(bench / "run/summary.json"));
+  CHECK(summary["profile"] == "quick");
+  CHECK(summary["profile_chose"].size() == 2);
+  const std::string resolved = contents(bench / "run/case-resolved.yaml");
+  CHECK_THAT(resolved, Contains("# profile quick: grid.spacing 0.6 m") && Contains("spacing: 0.6 m"));
+  // It reads back to the same run without the profile.
+  put(bench / "again.yaml", resolved);
+  CHECK(bench
+            .run("mpm-seismic", {bench.path("again.yaml"), "--from", bench.path("static/final.h5"), "--out",
+                                 bench.path("run"), "--threads", "1"})
+            .code == 0);
+}
+
 TEST_CASE("the option --check tells the cost, runs and writes nothing, and exits with 0", "[stages]")
 {
   const Bench bench;
