@@ -28,15 +28,6 @@ double history_variables(const Case& case_file)
   return static_cast<double>(most);
 }
 
-/// Bytes of a particle in a frame.
-double frame_bytes(const Case& case_file)
-{
-  double numbers = 6; // position, id, material, volume
-  for (const std::string& field : case_file.output.frames.fields)
-    numbers += field == "displacement" || field == "velocity" ? 3 : field == "stress" ? 4 : 1;
-  return 8 * numbers;
-}
-
 const YamlNode& spacing_node(const YamlNode& tree)
 {
   return *tree.child("grid")->child("spacing");
@@ -87,6 +78,14 @@ std::string size_problem(const Case& case_file, const CaseSize& size, const Free
   return {};
 }
 } // namespace
+
+double frame_bytes(const Case& case_file)
+{
+  double numbers = 6; // position, id, material, volume
+  for (const std::string& field : case_file.output.frames.fields)
+    numbers += field == "displacement" || field == "velocity" ? 3 : field == "stress" ? 6 : 1; // and p, q
+  return 8 * numbers;
+}
 
 CaseSize expected_size(const Case& case_file)
 {

@@ -22,6 +22,9 @@ CaseSize expected_size(const Case& case_file);
 /// held.
 double memory_needed(const CaseSize& size, const Case& case_file);
 
+/// Size of a particle in a frame, in bytes.
+double frame_bytes(const Case& case_file);
+
 /// Size of a checkpoint, in bytes.
 double checkpoint_bytes(double particles, const Case& case_file);
 } // namespace mpm

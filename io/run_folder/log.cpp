@@ -73,7 +73,7 @@ std::string short_number(double value)
 
 Log::Log(Verbosity verbosity, Screen screen)
     : verbosity_(verbosity),
-      live_(verbosity != Verbosity::quiet && screen == Screen::messages && can_redraw()),
+      live_(verbosity > Verbosity::quiet && screen == Screen::messages && can_redraw()),
       screen_(plain_logger(std::make_shared<spdlog::sinks::stderr_sink_mt>(), "%v")), answer_(screen_)
 {
   if (screen == Screen::answer)
@@ -112,7 +112,7 @@ void Log::say(Level level, const std::string& text)
                       : verbosity_ == Verbosity::normal ? Level::info
                                                         : Level::warning;
   // The file takes every level, whatever the screen shows.
-  if (level >= least) to_screen(prefix + text, level);
+  if (verbosity_ != Verbosity::silent && level >= least) to_screen(prefix + text, level);
   to_file(prefix + text);
 }
 
@@ -157,7 +157,7 @@ void Log::keep_line()
 
 void Log::progress(const std::string& line)
 {
-  if (!live_ && verbosity_ != Verbosity::quiet) to_screen(line);
+  if (!live_ && verbosity_ > Verbosity::quiet) to_screen(line);
   to_file(line);
 }
 

@@ -20,6 +20,7 @@ namespace mpm
 {
 enum class Verbosity
 {
+  silent,  ///< nothing: of what is only tried
   quiet,   ///< warnings and errors
   normal,  ///< messages and progress too
   verbose, ///< details too

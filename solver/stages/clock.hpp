@@ -32,4 +32,19 @@ struct Clock
     return multiples(time()) > multiples(time() - dt);
   }
 };
+
+/// Whether a run of so many seconds is over; the duration is a multiple of the step as a rule.
+inline bool is_over(double time, double duration)
+{
+  constexpr double rounding = 1e-9; // of the duration
+  return time >= duration * (1 - rounding);
+}
+
+/// Steps of dt (s) that such a run takes.
+inline std::int64_t steps_in(double duration, double dt)
+{
+  auto steps = static_cast<std::int64_t>(duration / dt);
+  for (steps = steps > 1 ? steps - 2 : 0; !is_over(static_cast<double>(steps) * dt, duration);) ++steps;
+  return steps;
+}
 } // namespace mpm

@@ -1,7 +1,6 @@
 #include "solver/stages/fidelity.hpp"
 
 #include "boundaries/ground_motion/spectrum.hpp"
-#include "solver/mpm/dispersion.hpp"
 #include "solver/stages/motion.hpp"
 
 #include <algorithm>
@@ -41,6 +40,13 @@ void report_share(Session& session, const Material& material, const Kind& kind, 
       material.name, 100 * share, kind.component, limit, 100 * much, kind.name, fine, 100 * much);
 }
 } // namespace
+
+Resolution resolution_of(const Case& case_file, double dt)
+{
+  const SeismicSettings& seismic = case_file.seismic;
+  return {case_file.grid.spacing, dt, seismic.transfer == Transfer::flip, seismic.filter.time,
+          seismic.inertia == Inertia::consistent};
+}
 
 void report_wave_fidelity(Session& session, double dt, const IncomingWave* wave)
 {

@@ -45,6 +45,15 @@ std::pair<double, double> yielded(const Domain& domain)
 }
 } // namespace
 
+Model make_static_model(const Case& case_file, Clock& clock)
+{
+  Model model = make_model(case_file);
+  add_static_boundaries(model, case_file);
+  if (case_file.static_stage.mass_scaling) scale_masses(model);
+  clock = {.dt = step_of(case_file.static_stage.courant_number, *model.main)};
+  return model;
+}
+
 Relaxation::Relaxation(Session& session, Model& model)
     : session_(session), model_(model), energy_(session, model)
 {
@@ -189,6 +198,25 @@ int Relaxation::run(Clock& clock, Start start)
   if (start != Start::at_end) save(final_name, clock);
   summary.finish(exit_code::done, facts());
   return exit_code::done;
+}
+
+std::optional<Relaxation::Ends> Relaxation::settle(Clock& clock, std::int64_t most)
+try
+{
+  Ends ends;
+  for (const std::int64_t last = clock.step + most; clock.step < last;)
+  {
+    const bool measure = (clock.step + 1) % check_every == 0;
+    step(clock, measure);
+    if (measure && converged(clock)) return Ends{plasticity_ ? ends.elastic : clock.time(), clock.time()};
+    if (phase_ == Phase::elastic) ends.elastic = clock.time();
+    if (clock.step % health_every == 0) check_particles(*model_.main, model_.reference_volume);
+  }
+  return {};
+}
+catch (const Diverged&)
+{
+  return {};
 }
 
 /// Steps; forces are summed up for the criteria only in the steps that are looked at.

@@ -4,8 +4,13 @@
 #include "solver/stages/energy_watch.hpp"
 #include "solver/stages/resume.hpp"
 
+#include <optional>
+
 namespace mpm
 {
+/// The undeformed ground between walls, with the inertia and the clock of the static stage.
+Model make_static_model(const Case& case_file, Clock& clock);
+
 /// The static stage: dynamic relaxation to equilibrium under gravity.
 ///
 /// Gravity grows smoothly over `static.ramp` while local damping takes a share of every unbalanced force
@@ -29,6 +34,14 @@ public:
   /// Steps until the case's criteria hold; returns the exit code: done with final.h5, interrupted with a
   /// checkpoint, or not_converged by `static.until.at_most`.
   int run(Clock& clock, Start start);
+  /// When elastic ground was at rest, and when all was, s.
+  struct Ends
+  {
+    double elastic = 0, all = 0;
+  };
+  /// Steps until the criteria hold and writes nothing; empty where they do not within `most` steps, or the
+  /// ground comes apart. To see how long it takes, on a model of few particles.
+  std::optional<Ends> settle(Clock& clock, std::int64_t most);
 
 private:
   enum class Phase

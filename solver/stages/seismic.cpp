@@ -88,7 +88,7 @@ int run_seismic(Session& session)
   {
     report_wave_fidelity(session, clock.dt, motion.wave.get());
     model = make_model(case_file); // the probe needs no static state, and takes none that is loaded by half
-    return predict_shaking(session, model, clock);
+    return predict_shaking(session, model, clock, motion.wave);
   }
   if (options.from.empty()) session.log.info("no gravity: starts from a stress-free state");
 

@@ -99,8 +99,7 @@ void Shaking::report_start(const Clock& clock)
 
 Shaking::Ended Shaking::loop(Clock& clock, Progress& progress)
 {
-  constexpr double rounding = 1e-9; // of the duration, which is a multiple of the step as a rule
-  while (clock.time() < case_file_.seismic.duration * (1 - rounding))
+  while (!is_over(clock.time(), case_file_.seismic.duration))
   {
     step(clock);
     const bool ended = take_out_departed(clock);

@@ -26,19 +26,10 @@ int run_static(Session& session)
                                           ": static.gravity: is 0, so there is no static state to "
                                           "find; run mpm-seismic without --from");
   // 1. The undeformed ground between walls.
-  Model model;
   Clock clock;
-  double shaking_step = 0; // with which the seismic stage would carry waves, s
-  const auto begin = [&]
-  {
-    model = make_model(case_file);
-    add_static_boundaries(model, case_file);
-    shaking_step = step_of(case_file.courant_number, *model.main);
-    if (settings.mass_scaling) scale_masses(model);
-    clock = {.dt = step_of(settings.courant_number, *model.main)};
-  };
-  begin();
+  Model model = make_static_model(case_file, clock);
   report_filling(session.log, case_file, model.filling);
+  const double shaking_step = unscaled_step(case_file.courant_number, *model.main); // of the seismic stage
   if (session.options.check)
   {
     report_wave_fidelity(session, shaking_step, nullptr);
@@ -49,13 +40,14 @@ int run_static(Session& session)
   session.open_folder(static_settings(case_file));
   if (finished_already(session)) return exit_code::done;
   std::optional<Relaxation> relaxation;
-  const Start start = resume(session, begin,
-                             [&](const h5::File& state)
-                             {
-                               relaxation.emplace(session, model);
-                               load_model(state, model, clock, settings.until.at_most);
-                               relaxation->load(state);
-                             });
+  const Start start = resume(
+      session, [&] { model = make_static_model(case_file, clock); },
+      [&](const h5::File& state)
+      {
+        relaxation.emplace(session, model);
+        load_model(state, model, clock, settings.until.at_most);
+        relaxation->load(state);
+      });
   if (start == Start::afresh)
   {
     relaxation.emplace(session, model);

@@ -34,6 +34,15 @@ double step_of(double courant_number, const Domain& domain)
   return courant_number * domain.grid.spacing / greatest_wave_speed(domain);
 }
 
+double unscaled_step(double courant_number, const Domain& domain)
+{
+  double greatest = 0;
+  for (std::size_t m = 0; m < domain.materials.size(); ++m)
+    if (domain.material_begin[m + 1] > domain.material_begin[m])
+      greatest = std::max(greatest, domain.materials[m].elastic().pressure_speed());
+  return courant_number * domain.grid.spacing / greatest;
+}
+
 double step_dividing(double interval, double courant_number, const Domain& domain)
 {
   return interval / std::ceil(interval / step_of(courant_number, domain));

@@ -21,6 +21,9 @@ double greatest_wave_speed(const Domain& domain);
 /// dt = C h / c_p with the greatest wave speed as it is now, s.
 double step_of(double courant_number, const Domain& domain);
 
+/// Likewise of undeformed ground without scaled masses.
+double unscaled_step(double courant_number, const Domain& domain);
+
 /// The longest such step that divides an interval (s), so that samples at that interval are evenly spaced.
 double step_dividing(double interval, double courant_number, const Domain& domain);
 
