@@ -31,6 +31,7 @@ struct Occasions
 {
   std::int64_t steps = 0;
   double skipped = 0;     ///< of these, in whole steps' worth of ground that rests
+  double yielding = 0;    ///< share of the ground that may yield and flow, which costs more then
   double samples = 0;     ///< of slide and energies
   double looks = 0;       ///< at particles, energies and wave speeds
   double frames = 0;      ///< files of all particles

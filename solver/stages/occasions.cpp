@@ -20,9 +20,9 @@ Occasions occasions_of(const Case& case_file, const IncomingWave* wave, double d
   all.samples = 1 + std::ceil(duration / slide_every);
   all.frames = 1 + std::ceil(duration / case_file.output.frames.every);
   all.frame_bytes = frame_bytes(case_file);
+  all.yielding = scales_of(case_file).yielding;
   if (case_file.seismic.rest_below > 0)
-    all.skipped =
-        std::max(0.0, duration - wave->end() - Rest::window) / dt * (1 - scales_of(case_file).yielding);
+    all.skipped = std::max(0.0, duration - wave->end() - Rest::window) / dt * (1 - all.yielding);
   return all;
 }
 

@@ -48,6 +48,15 @@ double step_of_other(const Session& session, const Case& other, double dt)
                  : step;
 }
 
+/// How long the stage takes with other cells, s of model time: what the static stage takes after its ramp
+/// goes with the cells, see expected_settling().
+double duration_of_other(const Session& session, const Case& other, double duration)
+{
+  if (session.options.seismic()) return duration;
+  const double after = duration - session.case_file.static_stage.ramp;
+  return other.static_stage.ramp + after * other.grid.spacing / session.case_file.grid.spacing;
+}
+
 /// Frequency to which S waves are carried in the softest ground, Hz.
 double carried(const Case& case_file, double dt)
 {
@@ -76,7 +85,8 @@ Offer offer_of(const Session& session, const std::string& name, const Case& othe
   const double dt = own ? chosen.dt : step_of_other(session, other, chosen.dt);
   const double each = own ? 1 : relative_cost(other, seismic) / relative_cost(session.case_file, seismic);
   const double times = each * size.particles / chosen.particles;
-  const Occasions all = occasions_of(other, chosen.wave, dt, chosen.duration);
+  const Occasions all =
+      occasions_of(other, chosen.wave, dt, duration_of_other(session, other, chosen.duration));
   Offer offer{name, other.grid.spacing, size.particles, memory_needed(size, other), all.steps, 0};
   offer.seconds = chosen.before * size.particles / chosen.particles +
                   stage_time(all, chosen.step.undisturbed() * times,

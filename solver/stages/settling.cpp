@@ -10,10 +10,10 @@ namespace mpm
 {
 namespace
 {
-constexpr double few = 3000;   // particles of the finer grid
-constexpr double ratio = 1.75; // of the coarser cells to the finer: a third of the particles
-
-constexpr double fewest = 8; // cells between the sides, whose walls must not meet
+constexpr double few = 3000;             // particles of the finer grid
+constexpr double ratio = 1.75;           // of the coarser cells to the finer: a third of the particles
+constexpr std::int64_t patience = 20000; // steps, some seconds
+constexpr double fewest = 8;             // cells between the sides, whose walls must not meet
 
 /// Cell size with which there are few particles, and every layer still has some, m.
 double coarse_spacing(const Case& case_file, double particles)
@@ -34,7 +34,8 @@ std::optional<Relaxation::Ends> ends_on(const Session& session, double spacing)
     Clock clock;
     Model model = make_static_model(tried.case_file, clock);
     Relaxation relaxation(tried, model);
-    return relaxation.settle(clock, steps_in(tried.case_file.static_stage.until.at_most, clock.dt));
+    const std::int64_t most = steps_in(tried.case_file.static_stage.until.at_most, clock.dt);
+    return relaxation.settle(clock, std::min(most, patience));
   }
   catch (const Error&)
   {
