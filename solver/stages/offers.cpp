@@ -97,12 +97,16 @@ Offer offer_of(const Session& session, const std::string& name, const Case& othe
   return offer;
 }
 
+std::string frequency_text(double hertz)
+{
+  return hertz < 10 ? fmt::format("{:.2g} Hz", hertz) : fmt::format("{:.0f} Hz", hertz);
+}
+
 void log_row(Session& session, const Offer& offer, bool with_waves)
 {
   session.log.info(columns, offer.name, fmt::format("{:.4g} m", offer.spacing), counted(offer.particles),
                    bytes_text(offer.memory), counted(static_cast<double>(offer.steps)),
-                   time_text(offer.seconds),
-                   std::isnan(offer.carried) ? "" : fmt::format("{:.2g} Hz", offer.carried),
+                   time_text(offer.seconds), std::isnan(offer.carried) ? "" : frequency_text(offer.carried),
                    with_waves ? offer.waves.letter() : ' ', offer.run_out.letter());
 }
 
