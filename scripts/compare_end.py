@@ -22,8 +22,8 @@ from options import Parser
 from plot_common import WIDTH, array, frame_times, group_of, open_history, read_summary, save
 from plot_histories import read_outline
 from plot_page import measures
+from programs import PROGRAMS
 
-PROGRAM = Path(__file__).resolve().parent.parent / "build" / "mpm-seismic"
 WHOLE = "never"
 
 
@@ -38,7 +38,7 @@ def parse_arguments(given):
     parser.add_argument("--record", action="append", required=True, metavar="FILE[,dt[,unit]]",
                         help="dt in s and unit of a record that does not tell them; repeatable")
     parser.add_argument("--end", default="self_driven", help="seismic.motion.end of the shorter run; default self_driven")
-    parser.add_argument("--program", type=Path, default=PROGRAM, help="default: that of the build")
+    parser.add_argument("--program", type=Path, default=PROGRAMS / "mpm-seismic", help="default: of the build, or installed")
     arguments = parser.parse_args(given[:cut])
     arguments.more = given[cut + 1:]
     return arguments

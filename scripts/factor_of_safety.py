@@ -23,7 +23,8 @@ from matplotlib.ticker import FuncFormatter
 
 from options import Parser
 from plot_common import read_summary, save
-from resolved_case import PROGRAMS, Refused, first_state, number_and_unit, options_of, program, resolve, setting
+from programs import PROGRAMS
+from resolved_case import Refused, first_state, number_and_unit, options_of, program, resolve, setting
 from sweep_run import INTERRUPTED, Pool, reason_of
 
 FIRM = 0.1  # the factor of the trial that displacements count from: hardly anything yields
@@ -45,7 +46,7 @@ def parse_arguments(given):
     parser.add_argument("--gone", type=float, default=0.01, metavar="SHARE",
                         help="of the ground's height, beyond which it has failed; default 0.01")
     parser.add_argument("--threads", default="", metavar="N")
-    parser.add_argument("--programs", type=Path, default=PROGRAMS, metavar="DIR", help="their folder; default: that of the build")
+    parser.add_argument("--programs", type=Path, default=PROGRAMS, metavar="DIR", help="their folder; default: of the build, or installed")
     arguments = parser.parse_args(given)
     if not (arguments.tolerance > 0.0 and arguments.gone > 0.0):
         parser.error("--tolerance and --gone are above 0")

@@ -1,6 +1,7 @@
 """The command line of the Python scripts: a wrong one ends with 64, as the programs do, and the nearest option is named."""
 import argparse
 import difflib
+import os
 import sys
 
 
@@ -8,7 +9,8 @@ class Parser(argparse.ArgumentParser):
     """An argument parser without abbreviations, whose errors end with 64."""
 
     def __init__(self, *arguments, **named):
-        """As argparse.ArgumentParser, which would take --mot for --motion."""
+        """As argparse.ArgumentParser, which would take --mot for --motion. Started by seismpm, it goes by the name that it was given there."""
+        named["prog"] = os.environ.pop("SEISMPM_COMMAND", named.get("prog"))
         super().__init__(*arguments, allow_abbrev=False, **named)
 
     def error(self, message):

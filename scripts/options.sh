@@ -1,5 +1,9 @@
 # shellcheck shell=bash
-# What scripts/run, scripts/verify and scripts/bench share: refusing an unknown option. To be sourced.
+# What scripts/run, scripts/verify, scripts/bench and scripts/seismpm share: refusing an unknown option. To be sourced.
+
+# As what the script was started: by seismpm under another name.
+called_as=${SEISMPM_COMMAND:-${0##*/}}
+unset SEISMPM_COMMAND
 
 # The word most like $1 of those that follow, if one is like it: letters changed, added, left out or exchanged
 # with their neighbour, up to a third of them.
@@ -27,7 +31,7 @@ nearest() {
 
 # refuse MESSAGE...: ends with 64, a wrong command line.
 refuse() {
-  echo "${0##*/}: $*; see --help" >&2
+  echo "$called_as: $*; see --help" >&2
   exit 64
 }
 

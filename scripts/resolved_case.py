@@ -13,8 +13,6 @@ except ImportError:
     print("PyYAML is missing: apt-get install python3-yaml, or set PYTHON to a python3 that has it", file=sys.stderr)
     sys.exit(66)
 
-PROGRAMS = Path(__file__).resolve().parent.parent / "build"
-
 
 class Refused(Exception):
     """Says why a command cannot be carried out, and has the exit code that tells so (io/run_folder)."""

@@ -22,7 +22,8 @@ import spectrum
 from options import Parser
 from plot_common import Missing, array, group_of, open_history, read_summary, save, text
 from plot_histories import read_gauges, read_motion
-from resolved_case import PROGRAMS, Refused, first_state, number_and_unit, options_of, program, resolve, setting
+from programs import PROGRAMS
+from resolved_case import Refused, first_state, number_and_unit, options_of, program, resolve, setting
 from sweep_run import INTERRUPTED, Pool, reason_of
 
 CELLS = 8  # width of the strip
@@ -41,7 +42,7 @@ def parse_arguments(given):
     parser.add_argument("--profile", default="", metavar="NAME")
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE")
     parser.add_argument("--threads", default="", metavar="N")
-    parser.add_argument("--programs", type=Path, default=PROGRAMS, metavar="DIR", help="their folder; default: that of the build")
+    parser.add_argument("--programs", type=Path, default=PROGRAMS, metavar="DIR", help="their folder; default: of the build, or installed")
     return parser.parse_args(given)
 
 

@@ -4,7 +4,6 @@ import subprocess
 import sys
 from pathlib import Path
 
-PROGRAMS = Path(__file__).resolve().parent.parent / "build"
 MOTION_OPTIONS = ("--motion", "--vertical", "--scale", "--record-dt", "--record-unit", "--record-format",
                   "--record-component", "--vertical-component")  # with a value each, of mpm-seismic alone
 

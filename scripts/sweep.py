@@ -20,7 +20,8 @@ import sweep_plan
 import sweep_run
 import sweep_slurm
 from options import Parser
-from resolved_case import PROGRAMS, Refused
+from programs import PROGRAMS
+from resolved_case import Refused
 
 
 def numbers(words):
@@ -59,7 +60,7 @@ def parse_arguments(given):
     parser.add_argument("--slurm", action="store_true", help="submits to Slurm instead")
     parser.add_argument("--sbatch", default="", metavar="'OPTIONS'", help="for sbatch, in quotes")
     parser.add_argument("--warn", type=whole, default=120, metavar="S", help="stops so long before Slurm's time limit; default 120 s")
-    parser.add_argument("--programs", type=Path, default=PROGRAMS, metavar="DIR", help="their folder; default: that of the build")
+    parser.add_argument("--programs", type=Path, default=PROGRAMS, metavar="DIR", help="their folder; default: of the build, or installed")
     arguments = parser.parse_args(given[:cut])
     arguments.more = given[cut + 1:]
     if arguments.draw and arguments.samples < 1 or not arguments.draw and arguments.samples > 1:

@@ -19,7 +19,8 @@ import uncertainty_report
 from options import Parser
 from plot_common import Missing, read_summary
 from run_measures import slid
-from stages import PROGRAMS, Failed, both_stages, numbers, resolved_case, split_options, with_settings
+from programs import PROGRAMS
+from stages import Failed, both_stages, numbers, resolved_case, split_options, with_settings
 from turning import turning
 
 ENDING = (64, 66, 70, 73, 74, 75)  # exit codes that other grids would have too, or that ask for the command again
@@ -49,7 +50,7 @@ def parse_arguments(given):
                         help="of the coarser cells to the case's; default 1.55,2.4, a third of the case's work")
     parser.add_argument("--bisections", type=int, default=4, metavar="N",
                         help="runs on each size of cells to find the scale at which the slope turns; default 4")
-    parser.add_argument("--programs", type=Path, default=PROGRAMS, help="their folder; default: that of the build")
+    parser.add_argument("--programs", type=Path, default=PROGRAMS, help="their folder; default: of the build, or installed")
     arguments = parser.parse_args(given[:cut])
     if arguments.bisections < 0:
         parser.error("--bisections: must be 0 or more")

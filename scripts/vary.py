@@ -16,7 +16,8 @@ import numpy as np
 from options import Parser
 from plot_common import Missing, array, group_of, open_history
 from plot_histories import read_gauges
-from stages import PROGRAMS, Failed, both_stages
+from programs import PROGRAMS
+from stages import Failed, both_stages
 
 
 def parse_arguments(given):
@@ -32,7 +33,7 @@ def parse_arguments(given):
     parser.add_argument("--at", type=float, metavar="S", help="time at which the speed is told; default the end")
     parser.add_argument("--gauge", help="whose greatest speed is told; default none")
     parser.add_argument("--beyond", type=float, metavar="X", help="when the slide's toe passes x = X m is told")
-    parser.add_argument("--programs", type=Path, default=PROGRAMS, help="their folder; default: that of the build")
+    parser.add_argument("--programs", type=Path, default=PROGRAMS, help="their folder; default: of the build, or installed")
     arguments = parser.parse_args(given[:cut])
     arguments.more = given[cut + 1:]
     return arguments

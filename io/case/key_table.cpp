@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <regex>
 
 namespace mpm
 {
@@ -143,6 +144,16 @@ std::vector<KeyDescription> case_keys(std::string_view path)
                 fmt::format("--keys {}: there is no such key{}; --keys alone lists all of them", path,
                             suggestion(path, branches)));
   return keys;
+}
+
+std::vector<std::string> words_of(const std::string& form)
+{
+  if (!std::regex_match(form, std::regex("\\w+(, \\w+)* or \\w+"))) return {};
+  const std::regex word("\\w+");
+  std::vector<std::string> words;
+  for (std::sregex_iterator found(form.begin(), form.end(), word), end; found != end; ++found)
+    if (found->str() != "or") words.push_back(found->str());
+  return words;
 }
 
 std::string text_of(const std::vector<KeyDescription>& keys)

@@ -17,6 +17,9 @@ std::vector<KeyDescription> case_keys();
 /// `Error` usage, with the path that may be meant, where there is none.
 std::vector<KeyDescription> case_keys(std::string_view path);
 
+/// The words that a key's form, "a, b or c", lets be given; none where it lets anything else be given.
+std::vector<std::string> words_of(const std::string& form);
+
 /// As text for a terminal, 100 columns wide: two lines or more for each key.
 std::string text_of(const std::vector<KeyDescription>& keys);
 

@@ -4,6 +4,7 @@
 #include "io/case/units.hpp"
 #include "io/common/error.hpp"
 #include "io/common/suggestion.hpp"
+#include "solver/stages/completion.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -235,6 +236,11 @@ try
   for (CLI::Option* option : app.get_options()) option->disable_flag_override(); // no --fresh=false
   app.set_version_flag("--version", version);
   app.allow_extras();
+  if (argc > 1 && std::string_view(argv[1]) == "--complete")
+  {
+    std::cout << completion(app, {argv + 2, argv + argc}, case_values);
+    return exit_code::done;
+  }
   try
   {
     app.parse(argc, argv);

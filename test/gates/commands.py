@@ -22,10 +22,10 @@ PRINTING = {"--help", "--version", "--keys", "--list", "--check", "--print-case"
 OTHERS = {"cd", "git", "cmake", "ctest", "apt-get", "mkdir", "python3", "export", "nohup", "rm", "tail"}  # no programs of ours
 STAGES = ("mpm-static", "mpm-seismic")
 BUILT = (*STAGES, "seismpm-tests", "seismpm-verify")  # the others only when they are asked for
-NO_PROGRAMS = {"scripts/find-python", "scripts/install-packages"}  # without options
+NO_PROGRAMS = {"scripts/find-python", "scripts/find-programs", "scripts/install-packages"}  # without options
 WITHOUT_FILES = {"--out", "--from", "--motion", "--vertical", "--record-dt", "--record-unit", "--record-format",
                  "--record-component", "--vertical-component"}  # what --print-case of a case does not need
-OURS = re.compile(r"(\S*/)?(scripts/[\w-]+|build[\w-]*/[\w-]+|mpm-static|mpm-seismic|seismpm-\w+)$")
+OURS = re.compile(r"(\S*/)?(scripts/[\w-]+|build[\w-]*/[\w-]+|mpm-static|mpm-seismic|seismpm-\w+)$|seismpm$")
 STANDS_FOR = re.compile(r"[\[\]<>*{}|…$]|\.\.\.|\b[A-Z]{1,}[A-Z_]*\b(?![\w-]*\d)")
 PATH = re.compile(r"(scripts|test|cases|solver|io|boundaries|materials)/[\w./-]+$")
 
@@ -62,6 +62,8 @@ def commands(page):
             name, _, value = words.pop(0).partition("=")
             variables["$" + name] = value
         words = [variables.get(word, word) for word in words]
+        if len(words) > 1 and words[0] == "seismpm":  # where it is installed
+            words = ["scripts/" + words[1], *words[2:]] if re.match(r"[a-z]", words[1]) else ["scripts/seismpm", *words[1:]]
         if words and (language in SHELL or OURS.match(words[0]) or re.match("--[a-z]", words[0])
                       or language == "none" and words[0] in OTHERS
                       or language == "inline" and words[0] in ("cmake", "ctest") and "--preset" in words):
@@ -79,7 +81,7 @@ def run(*words):
 def program(word):
     """Path of a program of ours as a page names it; where it is built, of the build that is tested."""
     name = word.rsplit("/", 1)[-1]
-    return f"scripts/{name}" if re.search(r"(^|/)scripts/", word) else f"build/{name}"
+    return f"scripts/{name}" if re.search(r"(^|/)scripts/|^seismpm$", word) else f"build/{name}"
 
 
 @functools.lru_cache(None)

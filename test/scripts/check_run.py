@@ -23,14 +23,14 @@ class Repository:
     def __init__(self, folder):
         self.root = Path(folder) / "repository"
         (self.root / "scripts").mkdir(parents=True)
-        for name in ("run", "options.sh"):
+        for name in ("run", "options.sh", "find-programs"):
             shutil.copy(ROOT / "scripts" / name, self.root / "scripts" / name)
         for name in ("scripts/install-packages", "scripts/plot-run", "build/mpm-static", "build/mpm-seismic", "bin/cmake"):
             path = self.root / name
             path.parent.mkdir(exist_ok=True)
             path.write_text(STUB)
             path.chmod(0o755)
-        for name in ("cases/slope/case.yaml", "cases/slope/other.yaml", "cases/hill/case.yaml", "a/quake.AT2",
+        for name in ("CMakeLists.txt", "cases/slope/case.yaml", "cases/slope/other.yaml", "cases/hill/case.yaml", "a/quake.AT2",
                      "b/quake.AT2", "my $case's/case.yaml"):
             path = self.root / name
             path.parent.mkdir(parents=True, exist_ok=True)

@@ -65,11 +65,11 @@ const LadderCase& ladder_case(std::string_view name)
                            "'; see seismpm-verify --list");
 }
 
-Ladder load_ladder(std::string_view name)
+Ladder load_ladder(std::string_view name, const std::filesystem::path& cases)
 {
   Ladder ladder;
   ladder.name = name;
-  ladder.folder = std::filesystem::path(SOURCE_DIR) / "cases/verification" / name;
+  ladder.folder = cases / name;
   const std::filesystem::path path = ladder.folder / "ladder.yaml";
   std::ifstream file(path, std::ios::binary);
   if (!file) throw std::runtime_error(path.string() + ": cannot be read");

@@ -79,8 +79,8 @@ struct Ladder
   std::filesystem::path folder;
 };
 
-/// Reads cases/verification/NAME/ladder.yaml. Throws Error with all that is wrong.
-Ladder load_ladder(std::string_view name);
+/// Reads NAME/ladder.yaml of a folder of cases. Throws Error with all that is wrong.
+Ladder load_ladder(std::string_view name, const std::filesystem::path& cases);
 
 /// One line of the table.
 struct Row

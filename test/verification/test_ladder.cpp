@@ -6,11 +6,13 @@ using namespace mpm::verification;
 
 namespace
 {
+const std::filesystem::path cases = SOURCE_DIR "/cases/verification";
+
 /// Runs a case and holds every error and every observed order against the bounds of its ladder.yaml, whose
 /// reasons stand in the case's README.
 void check(std::string_view name, bool full)
 {
-  const Ladder ladder = load_ladder(name);
+  const Ladder ladder = load_ladder(name, cases);
   const Result result = climb(ladder_case(name), ladder, full ? ladder.full : ladder.quick);
   for (const Row& row : result.rows)
   {
@@ -160,7 +162,7 @@ TEST_CASE("Every case of the ladder states a bound for each resolution that it r
 {
   for (const LadderCase& one : ladder_cases())
   {
-    const Ladder ladder = load_ladder(one.name);
+    const Ladder ladder = load_ladder(one.name, cases);
     INFO(ladder.name);
     CHECK(!ladder.full.empty());
     CHECK(!ladder.measures.empty());

@@ -1,0 +1,30 @@
+# Makes the man page PAGE of PROGRAM from what it says with --help, and from the table of exit codes in the page CODES. Where
+# there is help2man it sets the text, elsewhere the text stands as it is.
+cmake_path(GET PROGRAM FILENAME name)
+execute_process(COMMAND ${PROGRAM} --help OUTPUT_VARIABLE help COMMAND_ERROR_IS_FATAL ANY)
+string(REGEX MATCH "^[^\n]+" title "${help}")
+string(REGEX REPLACE "^[a-z-]+: |\\.$" "" title "${title}")
+
+# | 64 | wrong command line | see `--help` |
+file(READ ${CODES} codes)
+string(REGEX MATCHALL "\n\\| [0-9]+ \\| [^|]+" rows "${codes}")
+set(sections "[EXIT STATUS]\n")
+foreach(row IN LISTS rows)
+  string(REGEX MATCH "\n\\| ([0-9]+) \\| (.+)" row "${row}")
+  string(APPEND sections ".TP\n${CMAKE_MATCH_1}\n${CMAKE_MATCH_2}\n")
+endforeach()
+string(APPEND sections "\n[SEE ALSO]\n.BR seismpm (1),\n.BR mpm-static (1),\n.BR mpm-seismic (1),\n.BR seismpm-verify (1)\n")
+
+cmake_path(GET PAGE PARENT_PATH folder)
+file(MAKE_DIRECTORY ${folder})
+find_program(HELP2MAN help2man)
+if(HELP2MAN)
+  file(WRITE ${PAGE}.sections "${sections}")
+  execute_process(COMMAND ${HELP2MAN} --no-info --section=1 --name=${title} --version-string=${VERSION} --source=seismpm
+    --manual=seismpm --include=${PAGE}.sections --output=${PAGE} ${PROGRAM} COMMAND_ERROR_IS_FATAL ANY)
+else()
+  string(REGEX REPLACE "\\\\" "\\\\e" help "${help}")
+  string(REGEX REPLACE "\n([.'])" "\n\\\\\\&\\1" help "${help}")
+  string(REGEX REPLACE "\\[([A-Z ]+)\\]\n" ".SH \"\\1\"\n" sections "${sections}")
+  file(WRITE ${PAGE} ".TH ${name} 1 \"\" \"seismpm ${VERSION}\" seismpm\n.SH NAME\n${name} \\- ${title}\n.SH DESCRIPTION\n.nf\n${help}\n.fi\n${sections}")
+endif()
