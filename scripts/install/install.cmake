@@ -46,6 +46,12 @@ function(install_link destination name target)
 endfunction()
 install_link(${CMAKE_INSTALL_BINDIR} seismpm ${data}/scripts/seismpm)
 
+# The JSON Schema of a case.
+set(schema ${PROJECT_BINARY_DIR}/case.schema.json)
+add_custom_command(OUTPUT ${schema} COMMAND mpm-static --schema > ${schema} DEPENDS mpm-static VERBATIM)
+add_custom_target(schema ALL DEPENDS ${schema})
+install(FILES ${schema} DESTINATION ${data})
+
 # Cases, and all pages where their links lead to each other.
 install(DIRECTORY cases DESTINATION ${data} PATTERN records EXCLUDE)
 install(FILES README.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})

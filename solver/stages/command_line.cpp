@@ -1,6 +1,8 @@
 #include "solver/stages/command_line.hpp"
 
+#include "example.hpp"
 #include "io/case/key_table.hpp"
+#include "io/case/schema.hpp"
 #include "io/case/units.hpp"
 #include "io/common/error.hpp"
 #include "io/common/suggestion.hpp"
@@ -21,7 +23,7 @@ constexpr int most_threads = 4096;
 struct Typed
 {
   std::string scale, record_dt, threads, max_wall, keys;
-  bool quiet = false, verbose = false;
+  bool quiet = false, verbose = false, schema = false, example = false;
 };
 
 [[noreturn]] void refuse(const std::string& option, const std::string& why)
@@ -93,6 +95,8 @@ void add_common_options(CLI::App& app, Options& options, Typed& typed)
                  "print the keys of the case file, those below PATH if given, on stdout")
       ->type_name("[PATH]")
       ->expected(0, 1);
+  app.add_flag("--schema", typed.schema, "print a JSON Schema of the case file, for editors");
+  app.add_flag("--example", typed.example, "print a case to start from");
   app.add_option("--threads", typed.threads, "threads (default: OMP_NUM_THREADS, else all)")->type_name("N");
   app.add_option("--profile", options.profile, "apply one of the case's profiles; --set goes on top")
       ->type_name("NAME");
@@ -263,6 +267,11 @@ try
   if (app.count("--keys"))
   {
     print_keys(typed.keys);
+    return exit_code::done;
+  }
+  if (typed.schema || typed.example)
+  {
+    std::cout << (typed.schema ? case_schema() : std::string(example_case));
     return exit_code::done;
   }
   refuse_no_values(app);
