@@ -7,6 +7,7 @@ string(REGEX REPLACE "^[a-z-]+: |\\.$" "" title "${title}")
 
 # | 64 | wrong command line | see `--help` |
 file(READ ${CODES} codes)
+string(REPLACE ";" "," codes "${codes}") # which would end an element of a list
 string(REGEX MATCHALL "\n\\| [0-9]+ \\| [^|]+" rows "${codes}")
 set(sections "[EXIT STATUS]\n")
 foreach(row IN LISTS rows)
@@ -24,7 +25,8 @@ if(HELP2MAN)
     --manual=seismpm --include=${PAGE}.sections --output=${PAGE} ${PROGRAM} COMMAND_ERROR_IS_FATAL ANY)
 else()
   string(REGEX REPLACE "\\\\" "\\\\e" help "${help}")
-  string(REGEX REPLACE "\n([.'])" "\n\\\\\\&\\1" help "${help}")
+  string(REPLACE "-" "\\-" help "${help}")
+  string(REGEX REPLACE "\n([.'])" "\n\\\\&\\1" help "${help}")
   string(REGEX REPLACE "\\[([A-Z ]+)\\]\n" ".SH \"\\1\"\n" sections "${sections}")
   file(WRITE ${PAGE} ".TH ${name} 1 \"\" \"seismpm ${VERSION}\" seismpm\n.SH NAME\n${name} \\- ${title}\n.SH DESCRIPTION\n.nf\n${help}\n.fi\n${sections}")
 endif()

@@ -31,8 +31,8 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libseismpm-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
   "libeigen3-dev, libhdf5-dev, libyaml-cpp-dev, libcli11-dev, libfmt-dev, libspdlog-dev, nlohmann-json3-dev, libssl-dev")
-set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "The library of seismpm and its headers, for find_package(seismpm) of CMake.")
-set(CPACK_COMPONENT_GROUP_SEISMPM_DESCRIPTION "Computes how a slope fails in an earthquake and how far the slide runs, by an explicit\nmaterial point method in plane strain: programs, scripts, cases, documentation.")
+set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "The library of seismpm and its headers, for find_package(seismpm) of CMake.")
+set(CPACK_DEBIAN_SEISMPM_DESCRIPTION "Computes how a slope fails in an earthquake and how far the slide runs, by an explicit\nmaterial point method in plane strain: programs, scripts, cases, documentation.")
 
 include(CPack)
 include(CPackComponent)
