@@ -3,8 +3,6 @@
 #include "io/case/key_table.hpp"
 #include "io/case/yaml_tree.hpp"
 
-#include <CLI/CLI.hpp>
-
 #include <algorithm>
 #include <fstream>
 #include <iterator>

@@ -8,15 +8,11 @@
 // line, with what it means behind a tab; `:files` and `:folders` stand for those of the disk. So options,
 // profiles and keys are those of the program that is there, and of the case that is named.
 
+#include <CLI/CLI.hpp>
+
 #include <functional>
 #include <string>
 #include <vector>
-
-namespace CLI
-{
-class App;
-class Option;
-} // namespace CLI
 
 namespace mpm
 {
