@@ -84,7 +84,7 @@ double read_courant_number(Section& section, double fallback, std::string_view m
 {
   static const std::string reason = fmt::format(
       "where loose particles at the surface become unstable; {} is the default of the seismic stage, {} of "
-      "the static one",
+      "the static one (map courant of cases/verification/ATLAS.md)",
       usual_courant_number, fast_courant_number);
   return section.number_or(
       fallback, {"courant_number", meaning}, Dimension::none,

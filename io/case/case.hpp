@@ -199,6 +199,7 @@ struct GaugeSettings
 struct CheckpointSettings
 {
   double every = 600; ///< s of wall time
+  bool adapts = true; ///< longer where writing takes long: see Session::checkpoint_due
   int keep = 2;
 };
 

@@ -169,7 +169,8 @@ void warn_of_materials(Case& case_file)
     if (material.elastic().poisson > 0.49)
       case_file.warnings.push_back(
           "materials." + material.name + ".poisson_ratio: " + number_text(material.elastic().poisson) +
-          " is above 0.49: many more steps, and as much more numerical damping of shear waves");
+          " is above 0.49: many more steps, and as much more numerical damping of shear waves with apic "
+          "(map poisson of cases/verification/ATLAS.md)");
   warn_of_laws(case_file);
 }
 

@@ -2,6 +2,7 @@
 // the time step divides.
 
 #include "io/case/sections.hpp"
+#include "io/common/suggestion.hpp"
 
 #include <algorithm>
 
@@ -82,11 +83,24 @@ SlideSettings read_slide(Section section)
   return slide;
 }
 
-CheckpointSettings read_checkpoint(Section section)
+CheckpointSettings read_checkpoint(Section section, Problems& problems)
 {
   CheckpointSettings checkpoint;
-  checkpoint.every = section.number_or(checkpoint.every, {"every", "wall time between checkpoints"},
-                                       Dimension::time, Interval::positive());
+  const YamlNode* every = section.find(
+      {"every",
+       "wall time between checkpoints; auto: 600 s, or 50 times what writing one takes where that is longer, "
+       "so that they take no more than 2 % of a long run",
+       "auto or a time, above 0 s", "auto"});
+  if (!every) section.resolve("every", "auto");
+  if (every && every->text != "auto")
+  {
+    checkpoint.adapts = false;
+    if (every->kind == YamlNode::Kind::scalar && parse_quantity(every->text, Dimension::time).problem.empty())
+      checkpoint.every = read_number(*every, Dimension::time, Interval::positive(), problems);
+    else
+      problems.add(every->location, every->path,
+                   "must be auto or a time as '10 min'" + suggestion(every->text, {"auto"}));
+  }
   checkpoint.keep = section.integer_or(checkpoint.keep, {"keep", "how many checkpoints stay"}, 1, 1000);
   return checkpoint;
 }
@@ -99,7 +113,7 @@ OutputSettings read_output(Section& root, const std::vector<Material>& materials
   settings.frames = read_frames(output.optional_section("frames"), materials, problems);
   settings.gauges = read_gauges(output.optional_section("gauges"), problems);
   settings.slide = read_slide(output.optional_section("slide"));
-  settings.checkpoint = read_checkpoint(output.optional_section("checkpoint"));
+  settings.checkpoint = read_checkpoint(output.optional_section("checkpoint"), problems);
   return settings;
 }
 } // namespace mpm

@@ -158,21 +158,4 @@ double greatest_speed(const Particles& p)
     greatest = std::max(greatest, std::hypot(p.velocity_x[k], p.velocity_y[k]));
   return greatest;
 }
-
-void check_particles(const Domain& domain, const std::vector<double>& reference_volume)
-{
-  const Particles& p = domain.particles;
-  const auto particle = [&](int k)
-  {
-    return domain.name + ": particle " + std::to_string(p.id[k]) + " at x = " + std::to_string(p.x[k]) +
-           " m, y = " + std::to_string(p.y[k]) + " m, t = " + std::to_string(domain.time) + " s ";
-  };
-  for (int k = 0; k < p.size(); ++k)
-  {
-    const double all = p.x[k] + p.y[k] + p.stress_xx[k] + p.stress_yy[k] + p.stress_zz[k] + p.stress_xy[k];
-    if (!std::isfinite(all)) throw Diverged(particle(k) + "is not finite");
-    if (p.volume[k] < 0.1 * reference_volume[p.id[k]])
-      throw Diverged(particle(k) + "is squeezed below a tenth of its volume");
-  }
-}
 } // namespace mpm

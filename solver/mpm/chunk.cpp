@@ -45,6 +45,8 @@ void ChunkCells::fill(const TileStencils& tile, const double* __restrict x, cons
     y_fraction[k] = y_fraction[count - 1];
     node[k] = node[count - 1];
   }
+  // A place that is no number, or out of reach, must not lead out of the tile; the end of the step finds it.
+  for (int k = 0; k < filled(count); ++k) node[k] = std::min<unsigned>(node[k], last_first_node);
 }
 
 void LaneSplines::fill(const double* __restrict fraction, int count)

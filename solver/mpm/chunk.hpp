@@ -20,8 +20,8 @@ public:
         from_y_(grid.origin_y + grid.spacing * block_cells * block.y)
   {
   }
-  Stencil x(double position) const { return cubic_stencil(position - from_x_, spacing_); }
-  Stencil y(double position) const { return cubic_stencil(position - from_y_, spacing_); }
+  Stencil x(double position) const { return within_tile(cubic_stencil(position - from_x_, spacing_)); }
+  Stencil y(double position) const { return within_tile(cubic_stencil(position - from_y_, spacing_)); }
   /// Index in the tile of the first of a stencil's nodes.
   static int first_node(const Stencil& x, const Stencil& y) { return tile_index(x.first, y.first); }
 
@@ -30,8 +30,18 @@ public:
   double from_y() const { return from_y_; }
 
 private:
+  /// A place that is no number, or out of reach, must not lead out of the tile; the end of the step finds it.
+  static Stencil within_tile(Stencil s)
+  {
+    s.first = std::clamp(s.first, -tile_margin, tile_nodes - tile_margin - 4);
+    return s;
+  }
   double spacing_, from_x_, from_y_;
 };
+
+/// Greatest index in a tile that the first node of a stencil may have.
+inline constexpr unsigned last_first_node =
+    tile_index(tile_nodes - tile_margin - 4, tile_nodes - tile_margin - 4);
 
 /// Splines come with the factors of Spline; what is left of them to divide by in a product of both directions
 /// is taken out once a particle: weight times weight; slope times weight, which still lacks 1/h; moment times

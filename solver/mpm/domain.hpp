@@ -169,7 +169,4 @@ double greatest_speed(const Particles& particles);
 /// affine velocity, which would spread them without end. Sets their volume to that, and their opening to as
 /// much less, so that they will close at the volume at which they would have closed.
 void limit_openings(Domain& domain);
-
-/// Throws Diverged when a particle is not finite or squeezed below a tenth of its volume.
-void check_particles(const Domain& domain, const std::vector<double>& reference_volume);
 } // namespace mpm

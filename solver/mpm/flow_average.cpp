@@ -62,11 +62,6 @@ void average_flow(Domain& domain, const Flow& flow)
   const Grid& grid = domain.grid;
   const Particles& p = domain.particles;
   const double before = dissipated_energy(domain);
-  const auto cell_of = [&grid](double x, double y)
-  {
-    return std::pair{static_cast<int>(std::floor((x - grid.origin_x) * grid.inverse_spacing())),
-                     static_cast<int>(std::floor((y - grid.origin_y) * grid.inverse_spacing()))};
-  };
   for (std::size_t m = 0; m < domain.materials.size(); ++m)
   {
     const double length = domain.materials[m].averaging_length();
@@ -80,12 +75,26 @@ void average_flow(Domain& domain, const Flow& flow)
         {
           const OccupiedBlock& occupied = domain.blocks.occupied[block];
           NodeFinder find(grid);
+          // Particles may have drifted out of their block by a cell; a place that is no number, or out of
+          // reach, must not lead further, and the end of the step finds it.
+          const auto cell_of = [&](int k)
+          {
+            const auto cell = [&](double from_origin, int of_block)
+            {
+              const double first = block_cells * of_block;
+              return static_cast<int>(
+                  std::min(first + block_cells,
+                           std::max(first - drift_cells, std::floor(from_origin * grid.inverse_spacing()))));
+            };
+            return std::pair{cell(p.x[k] - grid.origin_x, occupied.block.x),
+                             cell(p.y[k] - grid.origin_y, occupied.block.y)};
+          };
           const auto tile_of = [&](int k)
           {
-            const auto [i, j] = cell_of(p.x[k], p.y[k]);
+            const auto [i, j] = cell_of(k);
             return tile_index(i - block_cells * occupied.block.x, j - block_cells * occupied.block.y);
           };
-          // Of the block's cell by cell; particles may have drifted out of it by one.
+          // Of the block's cell by cell.
           Tile mean;
           mean.value.fill(-1);
           ground.for_each(occupied,
@@ -93,7 +102,7 @@ void average_flow(Domain& domain, const Flow& flow)
                           {
                             double& of = mean.value[tile_of(k)];
                             if (of >= 0) return;
-                            const auto [i, j] = cell_of(p.x[k], p.y[k]);
+                            const auto [i, j] = cell_of(k);
                             double volume = 0, sum = 0;
                             find.move_to(i, j);
                             for (const Cell& cell : cells)

@@ -1,5 +1,6 @@
 #include "solver/mpm/chunk.hpp"
 #include "solver/mpm/gauges.hpp"
+#include "solver/mpm/health.hpp"
 
 #include <bit>
 
@@ -7,9 +8,6 @@ namespace mpm
 {
 namespace
 {
-/// dt |L| beyond which a step has lost the motion: the particle would be turned inside out.
-constexpr double greatest_gradient = 1;
-
 /// The different cells in which the particles of some lanes stand, mostly one: nodes are read once a cell.
 struct LaneCells
 {
@@ -108,11 +106,13 @@ inline Lanes without_weights(const Lanes& values)
 struct Extremes
 {
   Lanes velocity{}, gradient{};
+  Lanes poison{}; ///< zero until a velocity is no finite number, which the greatest do not tell
 
   void take(const NodeSums& r)
   {
     velocity = greatest_of(velocity, r.value);
     gradient = greatest_of(greatest_of(gradient, r.slope_x), r.slope_y);
+    poison += 0.0 * r.value;
   }
 };
 
@@ -172,7 +172,7 @@ private:
 };
 
 /// Moves the particles of a block and updates their stress. Returns their greatest displacement component in
-/// cells; infinite when one is deformed wholly.
+/// cells; infinite when one is deformed wholly or has a velocity that is no number.
 double update_block(Domain& domain, const OccupiedBlock& occupied, double dt)
 {
   const Grid& grid = domain.grid;
@@ -211,7 +211,8 @@ double update_block(Domain& domain, const OccupiedBlock& occupied, double dt)
                    update_particles(domain, material, begin, count, L, dt);
                  });
   const double courant = dt / grid.spacing;
-  if (greatest_of(greatest.gradient) * inverse_slopes * courant > greatest_gradient)
+  if (!all_zero(greatest.poison)) return std::numeric_limits<double>::infinity();
+  if (greatest_of(greatest.gradient) * inverse_slopes * courant > gradient_limit)
     return std::numeric_limits<double>::infinity();
   return greatest_of(greatest.velocity) * inverse_weights * courant;
 }

@@ -251,6 +251,13 @@ inline void store_integers(int* to, const Lanes& values)
   const Integers integers = __builtin_convertvector(values, Integers);
   std::memcpy(to, &integers, sizeof integers);
 }
+/// Whether all lanes are zero; one that is no number is not.
+inline bool all_zero(const Lanes& values)
+{
+  bool zero = true;
+  for (int k = 0; k < lanes; ++k) zero &= values[k] == 0;
+  return zero;
+}
 /// The greatest lane that is above zero.
 inline double greatest_of(const Lanes& of)
 {

@@ -1,6 +1,7 @@
 #include "solver/mpm/step.hpp"
 
 #include "solver/mpm/flow.hpp"
+#include "solver/mpm/health.hpp"
 
 #include <cmath>
 
@@ -8,8 +9,6 @@ namespace mpm
 {
 namespace
 {
-/// Greatest move of a particle in a step, cells. Stable steps move it by dt v / h = C v / c_p, far less.
-constexpr double move_limit = 0.25;
 /// Particles are sorted again before one may come within a quarter of a cell of the end of its tile.
 constexpr double sort_limit = drift_cells - move_limit;
 
@@ -26,20 +25,21 @@ void wrap(Particles& p, const Grid& grid)
   }
 }
 
-void throw_if_diverged(const Domain& domain)
+void throw_if_diverged(const Domain& domain, double dt)
 {
   if (domain.measures.greatest_move <= move_limit && std::isfinite(domain.energy.step.work)) return;
-  throw Diverged(
-      domain.name +
-      ": a particle moves more than a quarter of a cell, or is deformed wholly, in the step at t = " +
-      std::to_string(domain.time) + " s");
+  throw Diverged(failed_step(domain, dt));
 }
 } // namespace
 
 void step(Domain& domain, double dt)
 {
   domain.measures.times.start();
-  if (domain.blocks.drift > sort_limit - move_limit) sort_particles(domain);
+  if (domain.blocks.drift > sort_limit - move_limit)
+  {
+    check_places(domain);
+    sort_particles(domain);
+  }
   domain.measures.times.end(Phase::sort);
   filter_velocities(domain, dt);
   follow_flow(domain, dt);
@@ -50,7 +50,7 @@ void step(Domain& domain, double dt)
   domain.measures.times.end(Phase::boundaries);
   if (domain.settings.average_volume) average_volume_changes(domain, dt);
   grid_to_particles(domain, dt); // (c), (d)
-  throw_if_diverged(domain);
+  throw_if_diverged(domain, dt);
   domain.blocks.drift += domain.measures.greatest_move;
   if (domain.grid.wrapped) wrap(domain.particles, domain.grid);
   domain.measures.times.end(Phase::gather);

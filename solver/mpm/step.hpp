@@ -15,7 +15,7 @@
 namespace mpm
 {
 /// One step from domain.time over dt seconds; the caller moves domain.time on. Throws Diverged when a
-/// particle moves more than a quarter of a cell or is deformed wholly.
+/// particle moves more than a quarter of a cell, is deformed wholly or gets a velocity that is no number.
 void step(Domain& domain, double dt);
 
 /// (a): mass, momentum and forces of the particles, then the boundaries' forces.

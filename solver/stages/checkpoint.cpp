@@ -107,7 +107,6 @@ void write_checkpoint(Session& session, const std::string& name, const Model& mo
                             }
                           fill(file);
                         });
-  session.note_checkpoint();
 }
 
 bool is_last(const h5::File& state)
@@ -140,7 +139,7 @@ void load_model(const h5::File& state, Model& model, Clock& clock, double at_mos
 {
   load_clock(state.open_group(checkpoint::clock), clock, at_most);
   load_domains(state, model, load_domain);
-  check_particles(*model.main, model.reference_volume);
+  check_health(model);
 }
 
 std::string load_static_state(const Session& session, Model& model)
@@ -157,6 +156,14 @@ std::string load_static_state(const Session& session, Model& model)
       difference(file.read_strings(checkpoint::ground), ground_settings(session.case_file));
   if (!other.empty()) refuse(other + "; run mpm-static for this case");
   load_domains(file, model, load_particles);
+  try
+  {
+    check_health(model);
+  }
+  catch (const Diverged& error)
+  {
+    refuse(error.what());
+  }
   return digest;
 }
 } // namespace mpm

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "solver/mpm/domain.hpp"
+
 #include <cmath>
 #include <cstdint>
 
@@ -46,5 +48,11 @@ inline std::int64_t steps_in(double duration, double dt)
   auto steps = static_cast<std::int64_t>(duration / dt);
   for (steps = steps > 1 ? steps - 2 : 0; !is_over(static_cast<double>(steps) * dt, duration);) ++steps;
   return steps;
+}
+
+/// The same failure, which tells also after how many steps it was found.
+inline Diverged after_steps(const Diverged& failure, const Clock& clock)
+{
+  return Diverged(failure.what() + (", after " + std::to_string(clock.step)) + " steps");
 }
 } // namespace mpm

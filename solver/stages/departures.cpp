@@ -1,5 +1,7 @@
 #include "solver/stages/departures.hpp"
 
+#include "solver/mpm/health.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -167,6 +169,7 @@ bool Departures::take_out(double time)
   lose_gauges(time);
   const std::vector<Leaving> leaving = find_leaving();
   if (leaving.empty()) return false;
+  check_places(*model_.main); // what has jumped has not left
   const std::size_t before = model_.main->departed.size();
   model_.main->time = time;
   remove_particles(*model_.main, leaving);

@@ -31,6 +31,7 @@ private:
 /// transfers between particles and grid took. `opening` is what was there when the balance was opened.
 double closing_bound(const Energies& balance, const EnergyBalance& opening);
 
-/// Throws Diverged when more energy than a tenth of all that was there and was brought has come from nowhere.
+/// Throws Diverged when more energy than a tenth of all that was there and was brought has come from nowhere,
+/// or when more than that is in motion and has been radiated.
 void check_growth(const Domain& domain, const Energies& balance);
 } // namespace mpm

@@ -86,7 +86,8 @@ void report_wave_fidelity(Session& session, double dt, const IncomingWave* wave)
   if (wave && seismic.transfer == Transfer::apic && session.case_file.courant_number < usual_courant_number)
     session.log.warn("time_step.courant_number: {} is below {}: waves lose the same in every step, so that "
                      "numerical damping "
-                     "is {:.2g} times that of {}; a smaller step is not a more accurate one",
+                     "is {:.2g} times that of {}; a smaller step is not a more accurate one (map courant of "
+                     "cases/verification/ATLAS.md)",
                      session.case_file.courant_number, usual_courant_number,
                      usual_courant_number / session.case_file.courant_number, usual_courant_number);
 }

@@ -1,11 +1,13 @@
 #include "solver/stages/model.hpp"
 
+#include "solver/mpm/health.hpp"
 #include "solver/mpm/parallel.hpp"
 #include "solver/mpm/step.hpp"
 #include "solver/stages/interfaces.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 
 namespace mpm
 {
@@ -116,23 +118,41 @@ double side_stress_mismatch(const Model& model, const Case& case_file, Edge side
   return scale > 0 ? difference / scale : 0;
 }
 
+void check_health(const Model& model)
+{
+  for (const auto& [part, domain] : model.domains()) check_particles(*domain);
+}
+
 // The base's spring pulls towards where the free field stands at the start of the step, and the sides need
 // the columns' stress of the start and their motion over the step: both before the ground takes its own step.
 void advance(Model& model, double time, double dt)
 {
   if (model.base) model.base->follow(free_field_base(model));
-  const auto column = [=](FreeFieldColumn* c)
+  // No exception may leave a thread: that of the left column is told first.
+  std::exception_ptr left, right;
+  const auto column = [=](FreeFieldColumn* c, std::exception_ptr& failure)
   {
-    if (c) c->advance(time, dt);
+    try
+    {
+      if (c) c->advance(time, dt);
+    }
+    catch (...)
+    {
+      failure = std::current_exception();
+    }
   };
   model.main->measures.times.start();
+  const auto advance_left = [&] { column(model.left.get(), left); };
+  const auto advance_right = [&] { column(model.right.get(), right); };
   if (model.left && model.right)
-    parallel::together([&] { column(model.left.get()); }, [&] { column(model.right.get()); });
+    parallel::together(advance_left, advance_right);
   else
   {
-    column(model.left.get());
-    column(model.right.get());
+    advance_left();
+    advance_right();
   }
+  for (const std::exception_ptr& failure : {left, right})
+    if (failure) std::rethrow_exception(failure);
   model.main->measures.times.end(Phase::columns);
   model.main->time = time;
   step(*model.main, dt);

@@ -57,6 +57,9 @@ double spring_time(const Case& case_file);
 /// difference over mean column stress; 0 without a column. For the static state, before the switch.
 double side_stress_mismatch(const Model& model, const Case& case_file, Edge side);
 
+/// Looks at the particles of the ground and the columns (check_particles). Throws Diverged.
+void check_health(const Model& model);
+
 /// A step from `time` over `dt` s: of the columns, on two threads if there are two, then of the ground, whose
 /// sides need the columns' motion over the step.
 void advance(Model& model, double time, double dt);

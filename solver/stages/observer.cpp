@@ -2,6 +2,7 @@
 
 #include "io/results/checkpoint_layout.hpp"
 #include "io/results/frames.hpp"
+#include "solver/mpm/health.hpp"
 #include "solver/stages/interfaces.hpp"
 #include "solver/stages/motion.hpp"
 
@@ -244,6 +245,7 @@ void Observer::sample_base()
 void Observer::write_frame(const Clock& clock)
 {
   const Domain& main = *model_.main;
+  check_particles(main); // throws Diverged: what has diverged is not drawn
   Frame frame;
   frame.time = clock.time();
   frame.step = clock.step;

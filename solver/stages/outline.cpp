@@ -50,7 +50,7 @@ Outline outline_of(const Domain& domain, const Case& case_file)
   const auto raise = [&](std::vector<double>& height, double x, double y)
   {
     const double bin = std::floor((x - left) / size);
-    if (bin < 0 || bin >= count) return;
+    if (!(bin >= 0 && bin < count && std::isfinite(y))) return; // nor what has diverged
     double& top = height[static_cast<std::size_t>(bin)];
     top = std::isnan(top) ? y + size / 2 : std::max(top, y + size / 2);
   };

@@ -3,6 +3,7 @@
 #include "solver/stages/clock.hpp"
 #include "solver/stages/energy_watch.hpp"
 #include "solver/stages/resume.hpp"
+#include "solver/stages/summary.hpp"
 
 #include <optional>
 
@@ -55,6 +56,7 @@ private:
     out_of_time,
     interrupted, ///< with a checkpoint
   };
+  int run_to_end(Clock& clock, Start start, const Summary& summary);
   Ended loop(Clock& clock, Progress& progress);
   void step(Clock& clock, bool measure);
   void check(const Clock& clock);

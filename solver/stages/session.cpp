@@ -5,6 +5,16 @@
 
 namespace mpm
 {
+namespace
+{
+constexpr double checkpoint_share = 0.02; // of the wall time, for writing checkpoints
+
+double seconds_since(std::chrono::steady_clock::time_point start)
+{
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+} // namespace
+
 Session::Session(Options given)
     : options(std::move(given)), log(options.verbosity, options.check ? Screen::answer : Screen::messages)
 {
@@ -28,10 +38,34 @@ bool Session::must_stop() const
   return interruption_requested() || (options.max_wall > 0 && wall_seconds() >= options.max_wall);
 }
 
+double Session::checkpoint_interval() const
+{
+  const CheckpointSettings& checkpoint = case_file.output.checkpoint;
+  return checkpoint.adapts ? std::max(checkpoint.every, checkpoint_cost_ / checkpoint_share)
+                           : checkpoint.every;
+}
+
 bool Session::checkpoint_due() const
 {
-  return std::chrono::duration<double>(Wall::now() - last_checkpoint_).count() >=
-         case_file.output.checkpoint.every;
+  return seconds_since(last_checkpoint_) >= checkpoint_interval();
+}
+
+void Session::write_checkpoint(const std::function<void()>& write)
+{
+  const Wall::time_point begin = Wall::now();
+  write();
+  checkpoint_cost_ = seconds_since(begin);
+  last_checkpoint_ = Wall::now();
+  const CheckpointSettings& checkpoint = case_file.output.checkpoint;
+  if (told_of_cost_ || checkpoint_cost_ <= checkpoint_share * checkpoint.every) return;
+  told_of_cost_ = true;
+  const std::string took = fmt::format("a checkpoint took {:.2g} s to write", checkpoint_cost_);
+  if (checkpoint.adapts)
+    log.info("{}: the next ones come every {:.0f} s or so, which is {:.0f} % of the time", took,
+             checkpoint_interval(), 100 * checkpoint_share);
+  else
+    log.info("{}, {:.0f} % of the {:.3g} s between two; output.checkpoint.every: auto makes them rarer", took,
+             100 * checkpoint_cost_ / checkpoint.every, checkpoint.every);
 }
 
 Provenance Session::provenance() const
@@ -42,6 +76,6 @@ Provenance Session::provenance() const
 
 double Session::wall_seconds() const
 {
-  return std::chrono::duration<double>(Wall::now() - start_).count();
+  return seconds_since(start_);
 }
 } // namespace mpm

@@ -7,6 +7,7 @@
 #include "solver/stages/command_line.hpp"
 
 #include <chrono>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 namespace mpm
@@ -23,9 +24,12 @@ public:
 
   /// Whether a signal or `--max-wall` asks for an end.
   bool must_stop() const;
-  /// Whether the case's interval has gone by since the last checkpoint.
+  /// Whether the interval between checkpoints has gone by since the last one: the case's, or where that
+  /// adapts as much more as makes writing take no more than 2 %. Nothing of the results depends on it.
   bool checkpoint_due() const;
-  void note_checkpoint() { last_checkpoint_ = Wall::now(); }
+  /// Writes a checkpoint with what belongs to it, and notes how long that took; says so where it makes the
+  /// next ones rarer, or where the case's interval does not allow for it.
+  void write_checkpoint(const std::function<void()>& write);
 
   Provenance provenance() const;
   double wall_seconds() const; ///< since the program began
@@ -38,6 +42,10 @@ public:
 
 private:
   using Wall = std::chrono::steady_clock;
+  double checkpoint_interval() const; ///< s
+
   Wall::time_point start_ = Wall::now(), last_checkpoint_ = start_;
+  double checkpoint_cost_ = 0; ///< wall time that the last one took, s
+  bool told_of_cost_ = false;
 };
 } // namespace mpm

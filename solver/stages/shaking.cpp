@@ -72,11 +72,11 @@ int Shaking::run(Clock& clock, Start start)
     else
       save(final_name, clock);
   }
-  catch (const Diverged&)
+  catch (const Diverged& error)
   {
     observer_.write(applied_until(clock));
     summary.finish(exit_code::diverged, facts(clock));
-    throw;
+    throw after_steps(error, clock);
   }
   energy_.report();
   session_.log.info("{}", slide_text(observer_.slide().summary(), case_file_.output.slide.moved));
@@ -107,7 +107,7 @@ Shaking::Ended Shaking::loop(Clock& clock, Progress& progress)
     if (progress.due()) progress.update(moment(clock));
     if (ended) break;
     if (!session_.must_stop() && !session_.checkpoint_due()) continue;
-    save(checkpoint_name(clock.step), clock);
+    session_.write_checkpoint([&] { save(checkpoint_name(clock.step), clock); });
     if (session_.must_stop()) return Ended::interrupted;
   }
   return Ended::by_itself;
@@ -126,7 +126,7 @@ void Shaking::look_after(Clock& clock)
   end_motion();
   if (clock.step % check_every != 0) return;
   limit_openings(*model_.main);
-  check_particles(*model_.main, model_.reference_volume);
+  check_health(model_);
   energy_.check(clock.time());
   halve_step_if_outrun(session_, model_, case_file_.courant_number, clock);
   let_rest(clock.time());
@@ -185,7 +185,8 @@ void Shaking::fade_when_self_driven()
 /// The state, and with it history.h5, so that a run that is killed has its results until then.
 void Shaking::save(const std::string& name, const Clock& clock)
 {
-  energy_.check(clock.time()); // throws Diverged: the last checkpoint must be a good one
+  check_health(model_); // throws Diverged: the last checkpoint must be a good one
+  energy_.check(clock.time());
   write_checkpoint(session_, name, model_, clock,
                    [&](h5::File& file)
                    {

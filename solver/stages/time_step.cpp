@@ -64,11 +64,15 @@ void scale_masses(Model& model)
 
 void halve_step_if_outrun(Session& session, const Model& model, double courant_number, Clock& clock)
 {
-  const double h = session.case_file.grid.spacing, speed = greatest_wave_speed(*model.main);
+  const double h = session.case_file.grid.spacing;
+  double speed = 0;
+  for (const auto& [part, domain] : model.domains()) speed = std::max(speed, greatest_wave_speed(*domain));
   // Well below the limit of stability, or at it in a case that starts faster than is advisable.
   const double limit = courant_number < fast_courant_number ? fast_courant_number : stable_courant_number;
   if (clock.dt * speed <= limit * h) return;
-  clock.change_step(clock.dt / 2);
+  double dt = clock.dt;
+  while (dt * speed > limit * h) dt /= 2;
+  clock.change_step(dt);
   session.log.warn(
       "t = {:.3f} s: the ground has loosened to a wave speed of {:.0f} m/s; the step is halved to {:.3e} s{}",
       clock.time(), speed, clock.dt,

@@ -23,6 +23,7 @@ TEST_CASE("A small case gets the documented defaults", "[io]")
   CHECK(case_file.courant_number == 0.5);
   CHECK(case_file.output.frames.fields == std::vector<std::string>{"displacement", "velocity", "stress"});
   CHECK(case_file.output.checkpoint.every == 600);
+  CHECK(case_file.output.checkpoint.adapts);
   CHECK(case_file.output.checkpoint.keep == 2);
   CHECK(case_file.warnings.empty());
   REQUIRE(case_file.materials.size() == 1);
@@ -121,6 +122,7 @@ output:
   CHECK(case_file.output.gauges.points[1].name == "foot");
   CHECK(case_file.output.gauges.points[1].y == 6.2);
   CHECK(case_file.output.checkpoint.every == 120);
+  CHECK_FALSE(case_file.output.checkpoint.adapts);
   REQUIRE(case_file.warnings.size() == 1);
   CHECK_THAT(case_file.warnings[0], Contains("poisson_ratio: 0.495 is above 0.49"));
 }

@@ -7,6 +7,9 @@
 
 #include <catch2/catch.hpp>
 
+#include <chrono>
+#include <thread>
+
 using namespace mpm;
 using namespace mpm::test;
 
@@ -80,4 +83,26 @@ TEST_CASE("the stress of a side is compared with that of its column", "[stages]"
   }
   CHECK(side_stress_mismatch(model, case_file, Edge::left) == 0);
   CHECK(side_stress_mismatch(model, case_file, Edge::right) == Approx(0.2));
+}
+
+TEST_CASE("checkpoints that take long to write become rarer, unless the case says how often", "[stages]")
+{
+  using namespace std::chrono_literals;
+  const Stage stage;
+  Session session(stage.options(level_ground(1, 2, 8, 4, 8, 9.81)));
+  CheckpointSettings& settings = session.case_file.output.checkpoint;
+  REQUIRE(settings.adapts);
+  settings.every = 0.001;
+  session.write_checkpoint([] { std::this_thread::sleep_for(10ms); });
+  CHECK_FALSE(session.checkpoint_due());
+  std::this_thread::sleep_for(100ms);
+  CHECK_FALSE(session.checkpoint_due()); // 2 % are 0.5 s for 10 ms
+  const auto begin = std::chrono::steady_clock::now();
+  while (!session.checkpoint_due() && std::chrono::steady_clock::now() < begin + 60s)
+    std::this_thread::sleep_for(10ms);
+  CHECK(session.checkpoint_due());
+  settings.adapts = false;
+  session.write_checkpoint([] { std::this_thread::sleep_for(10ms); });
+  std::this_thread::sleep_for(5ms);
+  CHECK(session.checkpoint_due());
 }

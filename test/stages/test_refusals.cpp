@@ -169,7 +169,7 @@ TEST_CASE("a run that blows up exits with 80 and keeps its last good checkpoint"
                                                   "--set", "output.checkpoint.every=0.05 s"});
   INFO(ending.said);
   CHECK(ending.code == 80);
-  CHECK_THAT(ending.said, Contains("t = ") && Contains("quarter of a cell"));
+  CHECK_THAT(ending.said, Contains("t = ") && Contains("cells in the step"));
   CHECK_FALSE(fs::exists(bench / "out/final.h5"));
   REQUIRE_FALSE(checkpoints(bench / "out").empty());
   CHECK(code_of([&] { open_complete(checkpoints(bench / "out").back()); }) == 0);
