@@ -11,6 +11,18 @@ int filled(int count)
   return (count + lanes - 1) / lanes * lanes;
 }
 
+/// Stores the first nodes of stencils. A place that is no number, or out of reach, must not lead out of the
+/// tile; the end of the step finds it.
+void store_within(int* to, const Lanes& nodes)
+{
+  typedef unsigned Unsigned __attribute__((vector_size(lanes * sizeof(int))));
+  store_integers(to, nodes);
+  Unsigned first;
+  std::memcpy(&first, to, sizeof first);
+  first = first < last_first_node ? first : last_first_node - Unsigned{}; // of what is negative too
+  std::memcpy(to, &first, sizeof first);
+}
+
 /// The cells in which some points stand, along one direction, and how far into them: x = from + h (cell +
 /// fraction).
 struct CellLanes
@@ -37,7 +49,7 @@ void ChunkCells::fill(const TileStencils& tile, const double* __restrict x, cons
     const CellLanes row(load_first(y + k, count - k), tile.from_y(), inverse);
     store(&x_fraction[k], column.fraction);
     store(&y_fraction[k], row.fraction);
-    store_integers(&node[k], tile_stride * row.cell + column.cell + first);
+    store_within(&node[k], tile_stride * row.cell + column.cell + first);
   }
   for (int k = count; k < filled(count); ++k)
   {
@@ -45,8 +57,6 @@ void ChunkCells::fill(const TileStencils& tile, const double* __restrict x, cons
     y_fraction[k] = y_fraction[count - 1];
     node[k] = node[count - 1];
   }
-  // A place that is no number, or out of reach, must not lead out of the tile; the end of the step finds it.
-  for (int k = 0; k < filled(count); ++k) node[k] = std::min<unsigned>(node[k], last_first_node);
 }
 
 void LaneSplines::fill(const double* __restrict fraction, int count)

@@ -106,13 +106,11 @@ inline Lanes without_weights(const Lanes& values)
 struct Extremes
 {
   Lanes velocity{}, gradient{};
-  Lanes poison{}; ///< zero until a velocity is no finite number, which the greatest do not tell
 
   void take(const NodeSums& r)
   {
     velocity = greatest_of(velocity, r.value);
     gradient = greatest_of(greatest_of(gradient, r.slope_x), r.slope_y);
-    poison += 0.0 * r.value;
   }
 };
 
@@ -146,9 +144,10 @@ public:
   ///
   ///   v = sum w v*,   C = 3 / h^2 sum w v* (x_i - x)^T (eq. 3),   L = sum v* grad w^T,   x += dt v,
   ///
-  /// and with FLIP v_p + sum w (v* - P/m) for the velocity that they keep.
-  [[gnu::always_inline]] inline void apply(const LaneCells& cells, const Splines& s, int k, int q, int n,
-                                           const MotionFields& particles, Extremes& greatest) const
+  /// and with FLIP v_p + sum w (v* - P/m) for the velocity that they keep. Returns v, times the factors of
+  /// the splines.
+  [[gnu::always_inline]] inline Lanes apply(const LaneCells& cells, const Splines& s, int k, int q, int n,
+                                            const MotionFields& particles, Extremes& greatest) const
   {
     const auto [dt, spacing, flip] = transfer_;
     const double affine = 3 * inverse_weights / spacing, slope = inverse_slopes / spacing; // D = h^2 / 3
@@ -164,6 +163,7 @@ public:
     store_first(&particles.affine_y[q], affine * r.moment_y, n);
     store(&particles.gradient_x[k], slope * r.slope_x);
     store(&particles.gradient_y[k], slope * r.slope_y);
+    return r.value;
   }
 
 private:
@@ -187,6 +187,9 @@ double update_block(Domain& domain, const OccupiedBlock& occupied, double dt)
   const MotionFields of_x{p.x, p.velocity_x, p.affine_xx, p.affine_xy, L.xx, L.xy};
   const MotionFields of_y{p.y, p.velocity_y, p.affine_yx, p.affine_yy, L.yx, L.yy};
   Extremes greatest;
+  // Zero until a place is no number, and with it all weights, which neither the greatest nor the work of the
+  // forces tell.
+  Lanes poison{};
   for_each_chunk(occupied,
                  [&](int material, int begin, int count)
                  {
@@ -205,13 +208,13 @@ double update_block(Domain& domain, const OccupiedBlock& occupied, double dt)
                      const int q = begin + k, n = std::min(lanes, count - k);
                      for (int quarter = (k & 7) / 2; quarter < ((k & 7) + lanes) / 2; ++quarter)
                        next.fetch(k & ~7, quarter);
-                     x.apply(cells, splines, k, q, n, of_x, greatest);
+                     poison += 0.0 * x.apply(cells, splines, k, q, n, of_x, greatest);
                      y.apply(cells, splines, k, q, n, of_y, greatest);
                    }
                    update_particles(domain, material, begin, count, L, dt);
                  });
   const double courant = dt / grid.spacing;
-  if (!all_zero(greatest.poison)) return std::numeric_limits<double>::infinity();
+  if (!all_zero(poison)) return std::numeric_limits<double>::infinity();
   if (greatest_of(greatest.gradient) * inverse_slopes * courant > gradient_limit)
     return std::numeric_limits<double>::infinity();
   return greatest_of(greatest.velocity) * inverse_weights * courant;

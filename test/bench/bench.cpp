@@ -85,9 +85,14 @@ double bandwidth(std::size_t bytes)
 Model shaken_slope(int particles, Case& case_file)
 {
   const std::string path = SOURCE_DIR "/cases/slope/case.yaml";
-  const double area = 4260; // m2 of the section
+  const Case usual = load_case(path);
+  const double width = usual.domain.width();
+  double area = 0; // m2 of the section
+  for (int k = 0; k < 1000; ++k)
+    area += width / 1000 *
+            (usual.ground_height(usual.domain.left + (k + 0.5) * width / 1000) - usual.domain.bottom);
   double h = std::sqrt(9 * area / particles);
-  h = 140 / std::ceil(140 / h); // a whole number of cells
+  h = width / std::ceil(width / h); // a whole number of cells
   case_file = load_case(path, {fmt::format("grid.spacing={:.17g} m", h), "grid.particles_per_cell=3"});
   Model model = make_model(case_file);
   for (const auto& [part, domain] : model.domains())
@@ -131,6 +136,8 @@ struct Run
   double step;   ///< ns per particle-step and core, median over batches of steps
   double floors; ///< median of the batches' ratios to the arithmetic floor of that moment and all threads
   double bytes;  ///< of memory per particle, all that the case takes
+  double
+      checks; ///< of whether the motion diverges: a look every 100 steps over those steps, median of ratios
   std::array<double, phase_names.size()> phases;
 };
 
@@ -154,16 +161,20 @@ Run measure(int particles, int threads)
   const double bytes = (resident() - before_model) / count;
   const double unit = 1e9 * threads / (static_cast<double>(count) * batch);
   const auto before = model.main->measures.times.seconds();
-  std::vector<double> batches, floors;
+  std::vector<double> batches, floors, checks;
   for (int round = 0; round < 5; ++round)
   {
     const double rate = multiply_adds_of_each();
     const auto start = Watch::now();
     go(batch);
-    batches.push_back(unit * seconds_since(start));
+    const double seconds = seconds_since(start);
+    batches.push_back(unit * seconds);
     floors.push_back(batches.back() / arithmetic_floor(0.5 * (rate + multiply_adds_of_each())));
+    const auto looked = Watch::now();
+    for (int k = 0; k < 3; ++k) check_health(model);
+    checks.push_back(seconds_since(looked) / 3 / (100 * seconds / batch));
   }
-  Run run{count, threads, median(batches), median(floors), bytes, {}};
+  Run run{count, threads, median(batches), median(floors), bytes, median(checks), {}};
   for (std::size_t k = 0; k < run.phases.size(); ++k)
     run.phases[k] = unit * (model.main->measures.times.seconds()[k] - before[k]) / 5;
   return run;
@@ -209,7 +220,7 @@ int main(int argc, char** argv)
   measure(1000, threads.front()); // what the program takes for itself is no case's
   fmt::print("{:>10} {:>8} {:>8}", "particles", "threads", "step");
   for (const auto name : phase_names) fmt::print(" {:>10}", name);
-  fmt::print("  floor x  bytes\n");
+  fmt::print("  floor x  bytes  checks\n");
   nlohmann::json runs;
   for (const int size : sizes)
     for (const int count : threads)
@@ -217,13 +228,11 @@ int main(int argc, char** argv)
       const Run run = measure(size, count);
       fmt::print("{:>10} {:>8} {:>8.1f}", run.particles, run.threads, run.step);
       for (const double phase : run.phases) fmt::print(" {:>10.2f}", phase);
-      fmt::print("  {:>7.1f} {:>6.0f}\n", run.floors, run.bytes);
+      fmt::print("  {:>7.1f} {:>6.0f} {:>5.2f} %\n", run.floors, run.bytes, 100 * run.checks);
       std::cout.flush();
-      nlohmann::json one{{"particles", run.particles},
-                         {"threads", run.threads},
-                         {"step", run.step},
-                         {"arithmetic_floors", run.floors},
-                         {"bytes_per_particle", run.bytes}};
+      nlohmann::json one{
+          {"particles", run.particles},      {"threads", run.threads},          {"step", run.step},
+          {"arithmetic_floors", run.floors}, {"bytes_per_particle", run.bytes}, {"checks_share", run.checks}};
       for (std::size_t k = 0; k < phase_names.size(); ++k) one[std::string(phase_names[k])] = run.phases[k];
       runs.push_back(one);
     }

@@ -123,7 +123,7 @@ std::vector<Wrong> wrong_states()
       real("clock", "dt", NAN),
       real("clock", "dt", 0.0007),
       real("clock", "dt", 0),
-      real("clock", "time", 0.01),
+      real("clock", "time", 0.0101),
       real("clock", "start_time", -1),
       whole("clock", "step", std::int64_t(1) << 62),
       whole("clock", "step", -3),
