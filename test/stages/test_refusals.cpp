@@ -175,6 +175,17 @@ TEST_CASE("a run that blows up exits with 80 and keeps its last good checkpoint"
   CHECK(code_of([&] { open_complete(checkpoints(bench / "out").back()); }) == 0);
 }
 
+TEST_CASE("a base spring that is too stiff for the time step is refused with 65", "[stages]")
+{
+  const Bench bench;
+  bench.make_static();
+  const Ending ending = bench.run_seismic("out", {"--set", "seismic.base.spring=1 ms"});
+  CHECK(ending.code == 65);
+  CHECK_THAT(ending.said,
+             Contains("seismic.base.spring: 0.001 s is shorter than two time steps of 0.00125 s"));
+  CHECK_FALSE(fs::exists(bench / "out"));
+}
+
 TEST_CASE("a static stage without equilibrium in time exits with 81, says what fails, and writes no state",
           "[stages]")
 {
