@@ -121,7 +121,7 @@ def write_page(path, found, drawn, tested):
 
 def kind_of(said):
     """What a message says, without its numbers and names."""
-    for words in ("moves by", "moves at", "is deformed", "is squeezed", "has swollen", "energy has grown", "in motion or have been radiated", "has a ", "out of reach", "not finite"):
+    for words in ("moves by", "moves at", "is deformed", "is squeezed", "has swollen", "energy has grown", "in motion or have been radiated", "is where the step failed", "shorter than two time steps", "has a ", "out of reach", "not finite"):
         if words in said:
             return words.strip()
     return " ".join(word for word in said.split(": ")[-1].split() if not any(c.isdigit() for c in word))[:60].replace("|", "/")

@@ -63,7 +63,8 @@ def picture(path, results, maps):
             for k, c in enumerate(columns):
                 if (r, c) in cells and cells[(r, c)] != "stable":
                     axis.text(k, i, LOOKS[cells[(r, c)]][1], ha="center", va="center", fontsize=7)
-        axis.set_xticks(range(len(columns)), [label(c).replace(", ", "\n") for c in columns], fontsize=6)
+        axis.set_xticks(range(len(columns)), [label(c).replace(", ", "\n") for c in columns],
+                        fontsize=4.5 if any(", " in label(c) for c in columns) else 6)
         axis.set_yticks(range(len(rows)), [label(r) for r in rows], fontsize=6)
         axis.set_xticks([k + 0.5 for k in range(len(columns) - 1)], minor=True)
         axis.set_yticks([k + 0.5 for k in range(len(rows) - 1)], minor=True)
