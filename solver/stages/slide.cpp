@@ -140,7 +140,7 @@ MovedGround Slide::measure() const
   for (int k = 0; k < p.size(); ++k)
   {
     const Movement m = relative(motion_of(main, k), base);
-    if (m.distance() < case_file_.output.slide.moved) continue;
+    if (!(m.distance() >= case_file_.output.slide.moved)) continue; // nor what has diverged
     all.area += model_.reference_volume[p.id[k]];
     all.mass += p.mass[k];
     all.displacement[0] += p.mass[k] * m.ux;
