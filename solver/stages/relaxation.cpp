@@ -233,7 +233,7 @@ try
     step(clock, measure);
     if (measure && converged(clock)) return Ends{plasticity_ ? ends.elastic : clock.time(), clock.time()};
     if (phase_ == Phase::elastic) ends.elastic = clock.time();
-    if (clock.step % health_every == 0) check_particles(*model_.main, model_.reference_volume);
+    if (clock.step % health_every == 0) check_health(model_);
   }
   return {};
 }
