@@ -1,6 +1,7 @@
 #include "solver/stages/completion.hpp"
 
 #include "io/case/key_table.hpp"
+#include "io/case/profiles.hpp"
 #include "io/case/yaml_tree.hpp"
 
 #include <algorithm>
@@ -108,6 +109,9 @@ std::vector<Candidate> case_values(const CLI::Option& option, const std::string&
     if (const YamlNode* profiles = tree.child("profiles"))
       for (const YamlNode& profile : profiles->children)
         found.push_back({profile.key, "profile of the case"});
+    for (const StandardProfile& each : standard_profiles)
+      if (std::none_of(found.begin(), found.end(), [&](const Candidate& c) { return c.word == each.name; }))
+        found.push_back({std::string(each.name), std::string(each.meaning)});
   }
   if (type == "[PATH]")
     for (const KeyDescription& key : case_keys()) found.push_back({key.path, key.meaning});

@@ -140,7 +140,8 @@ def bash(installed):
     shutil.copy(ROOT / "cases" / "slope" / "case.yaml", installed.work / "case.yaml")
     (installed.work / "outputs").mkdir()
     expected = ((("mpm-static", "case.yaml", "--pro"), {"--profile"}), (("mpm-static", "case.yaml", "--profile", "q"), {"quick"}),
-                (("mpm-static", "case.yaml", "--profile=q"), {"quick"}), (("mpm-seismic", "--mot"), {"--motion"}),
+                (("mpm-static", "case.yaml", "--profile=q"), {"quick"}), (("mpm-static", "case.yaml", "--profile", "sta"), {"standard"}),
+                (("mpm-seismic", "--mot"), {"--motion"}),
                 (("mpm-static", "--mot"), set()), (("mpm-static", "--quiet", "--qui"), set()), (("mpm-static", "cas"), {"case.yaml"}),
                 (("mpm-static", "--out", "outp"), {"outputs"}), (("mpm-static", "case.yaml", "--set", "grid.sp"), {"grid.spacing="}),
                 (("mpm-seismic", "case.yaml", "--set=materials.soil.dens"), {"materials.soil.density="}),
