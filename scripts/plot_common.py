@@ -108,8 +108,21 @@ def heading_of(folder, summary):
     return ", ".join(part for part in (name, summary.get("motion_title"), state_of(summary)) if part)
 
 
+def laid_out(figure):
+    """The figure with its layout done and rounded: the solver of the layout differs in the last bits from one time to
+    the next, which vector formats show in the names of their clipping paths."""
+    figure.draw_without_rendering()
+    figure.set_layout_engine("none")
+    for axes in figure.axes:
+        inside = axes.get_in_layout()
+        axes.set_position(np.round(axes.get_position(original=True).bounds, 9))
+        axes.set_in_layout(inside)
+    return figure
+
+
 def write(figure, path, **named):
     """Writes a picture in the format of its name, without the date, and says so."""
+    laid_out(figure)
     dateless = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}}
     figure.savefig(path, dpi=150, metadata=dateless.get(Path(path).suffix), **named)
     plt.close(figure)

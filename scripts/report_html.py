@@ -103,7 +103,7 @@ def embedded(data, kind, caption, name=""):
 def picture(figure, caption, kind="svg", name=""):
     """A figure within the page: lines as svg, sections as png."""
     data = io.BytesIO()
-    figure.savefig(data, format=kind, dpi=160, metadata={"Date": None} if kind == "svg" else None)
+    laid_out(figure).savefig(data, format=kind, dpi=160, metadata={"Date": None} if kind == "svg" else None)
     plt.close(figure)
     return embedded(data.getvalue(), {"svg": "image/svg+xml", "png": "image/png"}[kind], caption, name)
 
