@@ -9,6 +9,8 @@ import math
 
 import matplotlib.pyplot as plt
 
+from plot_common import laid_out
+
 MARK = '<meta name="generator" content="seismpm report">'  # by which a report is known
 POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'"  # a browser that obeys loads and runs nothing
 PANEL = (5.2, 3.2)  # inches: letters of 9 pt stay readable where a phone shows the picture 9 cm wide
