@@ -21,6 +21,7 @@ from options import Parser
 from plot_common import Missing, array, frame_times, open_history, text
 from plot_histories import read_gauges
 from report_run import Run
+from whole_file import write_whole
 
 GROUPS = ("motion", "slide", "base", "energy", "free_field/left", "free_field/right")
 
@@ -228,9 +229,7 @@ def write(files, out):
         if isinstance(content, tuple):
             resolve_motion.write(str(path), *content)
         else:
-            part = path.with_name(name + ".part")
-            part.write_text(content, encoding="utf8")
-            part.replace(path)
+            write_whole(path, content)
         print(path)
 
 

@@ -26,6 +26,7 @@ from plot_common import read_summary, save
 from programs import PROGRAMS
 from resolved_case import Refused, first_state, number_and_unit, options_of, program, resolve, setting
 from sweep_run import INTERRUPTED, Pool, reason_of
+from whole_file import write_whole
 
 FIRM = 0.1  # the factor of the trial that displacements count from: hardly anything yields
 STEP = 1.25  # of the factor while both ends are sought
@@ -206,7 +207,7 @@ def find(given, pool):
     found = 0.5 * (low + high) if low and high else None
     result = {"factor_of_safety": found, "stands": low, "fails": high, "height": search.height, "gone": given.gone,
               "stiffness": search.factor, "trials": sorted(search.trials, key=lambda trial: trial["factor"])}
-    (given.out / "factor-of-safety.json").write_text(json.dumps(result, indent=1) + "\n")
+    write_whole(given.out / "factor-of-safety.json", json.dumps(result, indent=1) + "\n")
     draw(search, low, high, given.out / "factor-of-safety.png")
     print(f"factor of safety {found:.3f}: stands at {low:.3f}, fails at {high:.3f}" if found else
           f"no factor of safety: it {'stands' if low else 'fails'} at all factors from {FEWEST:g} to {MOST:g}")

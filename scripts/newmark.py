@@ -26,6 +26,7 @@ from options import Parser
 from plot_common import Missing, array, group_of, open_history
 from plot_histories import read_motion, read_outline
 from settings import quantity, settings_of
+from whole_file import write_whole
 
 USUAL_GRAVITY = "9.81 m/s2"  # of a case that says none
 DEPARTED = 0.1  # m, beyond which a run counts ground as out of place
@@ -270,7 +271,7 @@ def main():
         if not (given.folder / "final.h5").exists():
             print(f"newmark: {given.folder}: the run is not finished: this is the motion until t = {result['run']['until']:.2f} s",
                   file=sys.stderr)
-        (given.folder / "newmark.json").write_text(json.dumps(result, indent=1) + "\n")
+        write_whole(given.folder / "newmark.json", json.dumps(result, indent=1) + "\n")
         print("\n".join(lines_of(result)))
         (given.folder / "pictures").mkdir(exist_ok=True)
         figure, axis = plt.subplots(figsize=(plot_common.WIDTH, 4.5), layout="constrained")

@@ -15,6 +15,7 @@ import report_site
 import report_slide
 from options import Parser
 from plot_common import Missing
+from whole_file import write_whole
 
 STATIC = (("Scene and materials", (report_run.scene,)), ("Stresses", (report_run.static_stress,)),
           ("What the grid carries", (report_run.resolution,)), ("Warnings", (report_run.warnings,)), ("Case", (report_run.case,)))
@@ -77,9 +78,7 @@ def main():
             sections = [(title, "".join(guarded(part, run, damaged) for part in parts))
                         for title, parts in (STATIC if run.stage == "static" else SEISMIC)]
             page = report_html.page(run.title, guarded(report_run.lead, run, damaged), sections)
-            part = given.out.with_name(given.out.name + ".part")
-            part.write_text(page, encoding="utf8")
-            part.replace(given.out)
+            write_whole(given.out, page)
         except OSError as reason:
             print(f"report: {given.out}: {reason}", file=sys.stderr)
             return 74

@@ -13,6 +13,8 @@ except ImportError:
     print("PyYAML is missing: apt-get install python3-yaml, or set PYTHON to a python3 that has it", file=sys.stderr)
     sys.exit(66)
 
+from whole_file import write_whole
+
 
 class Refused(Exception):
     """Says why a command cannot be carried out, and has the exit code that tells so (io/run_folder)."""
@@ -78,7 +80,7 @@ def first_state(programs, case, resolved, options, folder):
                    "--max-wall", "0.001s", "--quiet"]
         folder.parent.mkdir(parents=True, exist_ok=True)
         done = subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False)
-        kept.write_text(words)
+        write_whole(kept, words)
         if find() is None:
             raise Refused(done.returncode or 70, done.stderr.strip() or f"{folder}: no state was left")
     return find()

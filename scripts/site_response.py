@@ -25,6 +25,7 @@ from plot_histories import read_gauges, read_motion
 from programs import PROGRAMS
 from resolved_case import Refused, first_state, number_and_unit, options_of, program, resolve, setting
 from sweep_run import INTERRUPTED, Pool, reason_of
+from whole_file import write_whole
 
 CELLS = 8  # width of the strip
 MOST_GAUGES = 60  # down the profile
@@ -230,7 +231,7 @@ def respond(given):
     words = json.dumps(made, indent=1) + "\n"  # which is YAML too
     if path.exists() and path.read_text() != words:
         raise Refused(73, f"{given.out} holds the response of another case or place; give another --out")
-    path.write_text(words)
+    write_whole(path, words)
     folder = shake(given, path, number_and_unit(case["static"]["gravity"])[0] == 0.0)
     profile, time, surface, outcrop, off = measure(folder, heights, case, layers)
     materials = read_summary(folder)["resolution"]["materials"].values()

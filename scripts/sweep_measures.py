@@ -13,6 +13,7 @@ import sweep_plan
 import sweep_run
 from plot_common import Missing, read_summary
 from resolved_case import Refused, number_and_unit
+from whole_file import write_whole
 
 INTENSITIES = {"pga": "g", "pgv": "m/s", "arias": "m/s", "d5_95": "s"}  # and sa_T in g
 MEASURES = {"displacement": "m", "toe_advance": "m", "moved_area": "m2", "moved_mass": "kg/m", "trigger_time": "s",
@@ -73,7 +74,7 @@ def of_block(folder, options):
         result = json.loads((folder / "newmark.json").read_text())
     else:
         result = newmark.stored_or_estimated(folder)
-        (folder / "newmark.json").write_text(json.dumps(result, indent=1) + "\n")
+        write_whole(folder / "newmark.json", json.dumps(result, indent=1) + "\n")
     trigger = result["trigger_time"]
     return {"newmark_displacement": result["displacement"], "newmark_trigger": np.nan if trigger is None else trigger}
 

@@ -13,6 +13,7 @@ from pathlib import Path
 from statistics import NormalDist
 
 from resolved_case import Refused, number_and_unit, options_of, resolve, setting
+from whole_file import write_whole
 
 SCHEMA = "seismpm-sweep/1"
 RECORD_OPTIONS = {"dt": "--record-dt", "unit": "--record-unit", "format": "--record-format", "component": "--record-component",
@@ -200,7 +201,5 @@ def store(plan, out):
                           "changed. Give another --out")
         known = {run["name"] for run in old["runs"]}
         plan = {**plan, "runs": old["runs"] + [run for run in plan["runs"] if run["name"] not in known]}
-    whole = path.with_name("sweep.json.part")
-    whole.write_text(json.dumps(plan, indent=1) + "\n")
-    whole.replace(path)
+    write_whole(path, json.dumps(plan, indent=1) + "\n")
     return plan

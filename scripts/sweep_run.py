@@ -11,6 +11,7 @@ import threading
 from concurrent.futures import ThreadPoolExecutor
 
 from sweep_plan import command_of_run, commands_of_static
+from whole_file import write_whole
 
 INTERRUPTED = 75
 NOT_AGAIN = (80, 81)  # the same would come out: diverged, did not settle
@@ -98,7 +99,7 @@ class Pool:
         with self.lock:
             self.running.discard(process)
         code = code if code >= 0 else 128 - code
-        beside(folder, ".exit").write_text(f"{code}\n")
+        write_whole(beside(folder, ".exit"), f"{code}\n")
         return code
 
 

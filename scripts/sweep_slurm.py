@@ -10,6 +10,7 @@ from pathlib import Path
 from resolved_case import Refused
 from sweep_plan import command_of_run, commands_of_static
 from sweep_run import code_of, left
+from whole_file import write_whole
 
 SCRIPTS = Path(__file__).resolve().parent
 JOB = SCRIPTS / "slurm" / "job.sbatch"
@@ -63,7 +64,7 @@ def send(plan, out, given):
         """Keeps the id of a job at once, so that an interrupted submission is known."""
         jobs.append(job)
         ends.extend([job] * is_end)
-        (folder / "jobs.json").write_text(json.dumps(jobs) + "\n")
+        write_whole(folder / "jobs.json", json.dumps(jobs) + "\n")
         return job
 
     out = Path(out).resolve()

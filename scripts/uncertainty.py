@@ -22,6 +22,7 @@ from run_measures import slid
 from programs import PROGRAMS
 from stages import Failed, both_stages, numbers, resolved_case, split_options, with_settings
 from turning import turning
+from whole_file import write_whole
 
 ENDING = (64, 66, 70, 73, 74, 75)  # exit codes that other grids would have too, or that ask for the command again
 SHIFTS = (0, 3, 4)                 # shifted grids with the case's cells, the next and the coarsest: 1.15 of the case's work
@@ -116,7 +117,7 @@ class Series:
                     raise
                 print(f"uncertainty: {grid.name} ended with {failure.code}; it is left out", file=sys.stderr)
                 self.left_out[grid.name] = failure.code
-                self.known.write_text(json.dumps({"options": options, "grids": self.left_out}) + "\n")
+                write_whole(self.known, json.dumps({"options": options, "grids": self.left_out}) + "\n")
         self.grids = [grid for grid in self.grids if grid.name not in self.left_out]
 
     def fails(self, grid, factor=1.0):
@@ -148,8 +149,8 @@ def main():
         print(f"uncertainty: {arguments.out}: {reason}", file=sys.stderr)
         return 66
     text = json.dumps(result, indent=1, allow_nan=False) + "\n"
-    (arguments.out / "uncertainty.json").write_text(text)
-    (arguments.out / "as-is" / "uncertainty.json").write_text(text)
+    write_whole(arguments.out / "uncertainty.json", text)
+    write_whole(arguments.out / "as-is" / "uncertainty.json", text)
     print("\n".join(uncertainty_report.lines(result)))
     plot_uncertainty.draw(result, arguments.out)
     return 0
