@@ -77,12 +77,17 @@ void EnergyWatch::open()
   for (const auto& [part, domain] : model_.domains()) open_energy_balance(*domain);
 }
 
+void EnergyWatch::check_growth() const
+{
+  for (const auto& [part, domain] : model_.domains()) mpm::check_growth(*domain, energies_of(*domain));
+}
+
 void EnergyWatch::check(double time)
 {
   for (const auto& [part, domain] : model_.domains())
   {
     const Energies e = energies_of(*domain);
-    check_growth(*domain, e);
+    mpm::check_growth(*domain, e);
     const double left = residual(e), bound = closing_bound(e, domain->energy);
     if (std::fabs(left) <= bound || std::count(warned_.begin(), warned_.end(), part)) continue;
     warned_.push_back(part);

@@ -16,6 +16,8 @@ public:
   /// Warns, once a domain, when an energy balance does not close; throws Diverged when energy has grown
   /// without a source.
   void check(double time);
+  /// Throws Diverged when energy has grown without a source; warns of nothing.
+  void check_growth() const;
   /// Tells the log where the energy went, in the model.
   void report() const;
   /// Terms and residuals in J per m, for summary.json.

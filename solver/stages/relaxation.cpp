@@ -73,8 +73,18 @@ void Relaxation::set_phase(Phase phase)
   for (const auto& [part, domain] : model_.domains()) domain->settings.plastic = phase == Phase::plastic;
 }
 
-void Relaxation::load(const h5::File& state)
+/// In y, m/s2.
+double Relaxation::gravity_at(double time) const
 {
+  const StaticSettings& s = session_.case_file.static_stage;
+  return -s.gravity * ramp(std::max(0.0, time) / s.ramp);
+}
+
+void Relaxation::load(const h5::File& state, const Clock& clock)
+{
+  // What acted in the last step: the energies of a run that is loaded at its end are told with it.
+  for (const auto& [part, domain] : model_.domains())
+    domain->settings.gravity_y = gravity_at(clock.time() - clock.dt);
   const h5::Group group = state.open_group(checkpoint::relaxation);
   const std::int64_t plastic = group.attribute_int("plastic"), held = group.attribute_int("held");
   unbalanced_ = group.attribute_double("unbalanced");
@@ -88,7 +98,6 @@ void Relaxation::load(const h5::File& state)
 
 void Relaxation::save(const std::string& name, const Clock& clock)
 {
-  check_health(model_); // throws Diverged: the last checkpoint must be a good one
   write_checkpoint(session_, name, model_, clock,
                    [&](h5::File& file)
                    {
@@ -102,14 +111,13 @@ void Relaxation::save(const std::string& name, const Clock& clock)
 
 void Relaxation::step(Clock& clock, bool measure)
 {
-  const StaticSettings& s = session_.case_file.static_stage;
-  const auto gravity_at = [&s](double time) { return -s.gravity * ramp(std::max(0.0, time) / s.ramp); };
+  const double strong = noted_share * session_.case_file.static_stage.gravity;
   const double before = gravity_at(clock.time() - clock.dt), now = gravity_at(clock.time());
   for (const auto& [part, domain] : model_.domains())
   {
     // Between two notes gravity counts as growing linearly with the ground's movement: a steep ramp needs
     // more of them than the checks make, and a jump one on either side.
-    if (std::fabs(now - domain->energy.gravity_y) > noted_share * s.gravity)
+    if (std::fabs(now - domain->energy.gravity_y) > strong)
       for (const double gravity : {before, now})
       {
         domain->settings.gravity_y = gravity;
@@ -218,7 +226,11 @@ int Relaxation::run_to_end(Clock& clock, Start start, const Summary& summary)
     return exit_code::not_converged;
   }
   // A final state that is whole stays as it is: what was made from it names its digest.
-  if (start != Start::at_end) save(final_name, clock);
+  if (start != Start::at_end)
+  {
+    check_health(model_); // throws Diverged: the last state must be a good one
+    save(final_name, clock);
+  }
   summary.finish(exit_code::done, facts());
   return exit_code::done;
 }
@@ -258,7 +270,7 @@ Relaxation::Ended Relaxation::loop(Clock& clock, Progress& progress)
     }
     if (progress.due()) progress.update(moment(clock));
     if (done) return Ended::converged;
-    if (!session_.must_stop() && !session_.checkpoint_due()) continue;
+    if ((!session_.must_stop() && !session_.checkpoint_due()) || !is_good()) continue;
     session_.write_checkpoint(
         [&]
         {
@@ -268,6 +280,19 @@ Relaxation::Ended Relaxation::loop(Clock& clock, Progress& progress)
     if (session_.must_stop()) return Ended::interrupted;
   }
   return Ended::out_of_time;
+}
+
+/// Whether the state is one to go on from. Where it is not, check() ends the run if it finds it so too: a run
+/// ends the same whenever its checkpoints are due.
+bool Relaxation::is_good() const
+try
+{
+  check_health(model_);
+  return true;
+}
+catch (const Diverged&)
+{
+  return false;
 }
 
 Moment Relaxation::moment(const Clock& clock) const

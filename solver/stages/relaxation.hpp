@@ -30,8 +30,8 @@ public:
   Relaxation(Session& session, Model& model);
   /// Opens the energy balances: at the first step, not after a restart.
   void start() { energy_.open(); }
-  /// Takes up what a state tells of the stage; the model is loaded already. `Error` bad_input.
-  void load(const h5::File& state);
+  /// Takes up what a state tells of the stage; model and clock are loaded already. `Error` bad_input.
+  void load(const h5::File& state, const Clock& clock);
   /// Steps until the case's criteria hold; returns the exit code: done with final.h5, interrupted with a
   /// checkpoint, or not_converged by `static.until.at_most`.
   int run(Clock& clock, Start start);
@@ -58,6 +58,8 @@ private:
   };
   int run_to_end(Clock& clock, Start start, const Summary& summary);
   Ended loop(Clock& clock, Progress& progress);
+  double gravity_at(double time) const;
+  bool is_good() const;
   void step(Clock& clock, bool measure);
   void check(const Clock& clock);
   bool converged(const Clock& clock);

@@ -99,9 +99,10 @@ int run_seismic(Session& session)
   take_static_state();
   check_steps(case_file.seismic.duration, clock.dt);
   check_spring(case_file, clock.dt);
+  const double first_step = clock.dt; // that of a state may have been halved since
   if (options.check)
   {
-    report_wave_fidelity(session, clock.dt, motion.wave.get());
+    report_wave_fidelity(session, first_step, motion.wave.get());
     model = make_model(case_file); // the probe needs no static state, and takes none that is loaded by half
     return predict_shaking(session, model, clock, motion.wave);
   }
@@ -127,6 +128,8 @@ int run_seismic(Session& session)
     shaking.emplace(session, model, motion, from);
     shaking->start(clock);
   }
+
+  report_wave_fidelity(session, first_step, motion.wave.get());
 
   // 4. Shaking and run-out.
   return shaking->run(clock, start);

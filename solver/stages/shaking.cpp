@@ -4,7 +4,6 @@
 #include "solver/mpm/parallel.hpp"
 #include "solver/stages/boundary_reports.hpp"
 #include "solver/stages/checkpoint.hpp"
-#include "solver/stages/fidelity.hpp"
 #include "solver/stages/slide_report.hpp"
 #include "solver/stages/time_step.hpp"
 
@@ -70,7 +69,11 @@ int Shaking::run(Clock& clock, Start start)
     if (start == Start::at_end)
       observer_.write(applied_until(clock)); // the state itself stays as it is, to the byte
     else
+    {
+      check_health(model_); // throws Diverged: the last state must be a good one
+      energy_.check(clock.time());
       save(final_name, clock);
+    }
   }
   catch (const Diverged& error)
   {
@@ -86,7 +89,6 @@ int Shaking::run(Clock& clock, Start start)
 
 void Shaking::report_start(const Clock& clock)
 {
-  report_wave_fidelity(session_, clock.dt, motion_.wave.get());
   if (model_.base)
   {
     const double time = spring_time(case_file_);
@@ -106,11 +108,25 @@ Shaking::Ended Shaking::loop(Clock& clock, Progress& progress)
     look_after(clock);
     if (progress.due()) progress.update(moment(clock));
     if (ended) break;
-    if (!session_.must_stop() && !session_.checkpoint_due()) continue;
+    if ((!session_.must_stop() && !session_.checkpoint_due()) || !is_good()) continue;
     session_.write_checkpoint([&] { save(checkpoint_name(clock.step), clock); });
     if (session_.must_stop()) return Ended::interrupted;
   }
   return Ended::by_itself;
+}
+
+/// Whether the state is one to go on from. Where it is not, look_after() ends the run if it finds it so too:
+/// a run ends the same whenever its checkpoints are due.
+bool Shaking::is_good() const
+try
+{
+  check_health(model_);
+  energy_.check_growth();
+  return true;
+}
+catch (const Diverged&)
+{
+  return false;
 }
 
 void Shaking::step(Clock& clock)
@@ -123,7 +139,7 @@ void Shaking::step(Clock& clock)
 void Shaking::look_after(Clock& clock)
 {
   observer_.look(clock, false);
-  end_motion();
+  end_motion(clock);
   if (clock.step % check_every != 0) return;
   limit_openings(*model_.main);
   check_health(model_);
@@ -162,12 +178,13 @@ bool Shaking::ends_self_driven() const
   return case_file_.seismic.motion.end == MotionEnd::self_driven;
 }
 
-/// Lets the motion fade from the sample on that shows a self-driven slide.
-void Shaking::end_motion()
+/// Lets the motion fade from the sample on that shows a self-driven slide. Between two samples nothing is
+/// decided: a run that was loaded would judge the ground of its checkpoint.
+void Shaking::end_motion(const Clock& clock)
 {
   const MovedGround& moved = observer_.slide().now();
   const double time = observer_.slide().time();
-  if (!ends_self_driven() || !self_driven_.decide(moved, time)) return;
+  if (!ends_self_driven() || time != clock.time() || !self_driven_.decide(moved, time)) return;
   fade_when_self_driven();
   session_.log.info(
       "t = {:.2f} s: the slide is self-driven: {:.1f} m2 have moved more than {} m and advanced at "
@@ -185,8 +202,6 @@ void Shaking::fade_when_self_driven()
 /// The state, and with it history.h5, so that a run that is killed has its results until then.
 void Shaking::save(const std::string& name, const Clock& clock)
 {
-  check_health(model_); // throws Diverged: the last checkpoint must be a good one
-  energy_.check(clock.time());
   write_checkpoint(session_, name, model_, clock,
                    [&](h5::File& file)
                    {

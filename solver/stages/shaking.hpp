@@ -33,11 +33,12 @@ private:
   };
   void report_start(const Clock& clock);
   Ended loop(Clock& clock, Progress& progress);
+  bool is_good() const;
   void step(Clock& clock);
   void look_after(Clock& clock);
   bool take_out_departed(const Clock& clock);
   void let_rest(double time);
-  void end_motion();
+  void end_motion(const Clock& clock);
   void fade_when_self_driven();
   bool ends_self_driven() const;
   void save(const std::string& name, const Clock& clock);

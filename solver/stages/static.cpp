@@ -46,7 +46,7 @@ int run_static(Session& session)
       {
         relaxation.emplace(session, model);
         load_model(state, model, clock, settings.until.at_most);
-        relaxation->load(state);
+        relaxation->load(state, clock);
       });
   if (start == Start::afresh)
   {

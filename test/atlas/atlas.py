@@ -14,34 +14,10 @@ import judge
 import page
 from extremes import EXTREMES
 from maps import MAPS
+from store import Store
 
 ROOT = Path(__file__).resolve().parents[2]
 DRAWS, QUICK_DRAWS = 2000, 400
-
-
-class Store:
-    """Results by the digest of what was run, kept in a file line by line: a repeated call does nothing twice."""
-
-    def __init__(self, path, programs):
-        """Of a file, for these programs: others begin anew."""
-        self.path, self.found = path, {}
-        binaries = [programs / name for name in ("mpm-static", "mpm-seismic", "mpm-seismic-faulty")]
-        self.build = hashlib.sha256(b"".join(hashlib.sha256(b.read_bytes()).digest() for b in binaries)).hexdigest()
-        if path.exists():
-            for line in path.read_text().splitlines():
-                if line.endswith("}"):  # the last line of a call that was killed may be torn
-                    entry = json.loads(line)
-                    self.found[entry["key"]] = entry["result"]
-
-    def key(self, *what):
-        """Digest of anything that JSON can write, and the programs."""
-        return hashlib.sha256(json.dumps([self.build, *what], sort_keys=True, default=str).encode()).hexdigest()[:24]
-
-    def add(self, key, result):
-        """Keeps a result."""
-        self.found[key] = result
-        with self.path.open("a") as file:
-            file.write(json.dumps({"key": key, "result": result}) + "\n")
 
 
 def run_all(store, programs, jobs, wanted, what):

@@ -17,6 +17,7 @@ USUAL = {
     "h": 1.0, "n": 2, "courant": 0.5, "steps": 300, "width": 12, "rock_cells": 3, "soil_cells": 6, "block": None,
     "rock": ROCK, "soil": SOIL, "zone": None, "zone_cells": 0, "slope": 0, "gravity": 0.0, "pga": 1.0, "base_speed": 0.0,
     "seismic": {}, "grid": {}, "static": {}, "sides": "quiet", "base": "compliant", "frames": 1, "spoil": None,
+    "vertical": 0.0, "gauges": False, "output": {},
 }
 
 
@@ -105,6 +106,8 @@ def build(**given):
     if s["base"] == "compliant":
         seismic["motion"] = {"recorded_as": "upgoing", "baseline": "none", "taper": "0 s",
                              "horizontal": {"file": "shake.txt", "format": "column", "dt": f"{step!r} s", "unit": "m/s2"}}
+        if s["vertical"]:  # the same motion, so many times as strong
+            seismic["motion"]["vertical"] = {**seismic["motion"]["horizontal"], "scale": s["vertical"]}
     for key, value in s["seismic"].items():
         seismic[key] = {**seismic.get(key, {}), **value} if isinstance(value, dict) else value
     case = {
@@ -116,8 +119,10 @@ def build(**given):
         "seismic": seismic,
         "time_step": {"courant_number": min(s["courant"], STABLE)},
         "output": {"gauges": {"every": f"{duration / 10!r} s"}, "frames": {"every": f"{duration / s['frames']!r} s"},
-                   "checkpoint": {"every": "1 h"}},
+                   "checkpoint": {"every": "1 h"}, **s["output"]},
     }
+    if s["gauges"]:  # in the ground, and on top of it
+        case["output"]["gauges"]["points"] = {"middle": [metres(0.4 * width), metres(0.5 * top)], "surface": [metres(0.25 * width), metres(top)]}
     if s["gravity"] > 0:
         ramp = 10 * sum((s["rock_cells"], s["zone_cells"], s["soil_cells"])) * h / slowest
         until = {"unbalanced": 1e-4, "kinetic": 1e-7, "at_most": f"{8 * ramp!r} s", **s["static"].get("until", {})}

@@ -21,9 +21,9 @@ def power(rng, low, high):
     return 10 ** rng.uniform(low, high)
 
 
-def law(rng, weak):
-    """Any law with any parameters; `weak` scales its strengths, Pa."""
-    common = {"density": power(rng, 2.5, 4), "young_modulus": power(rng, 4, 11),
+def law(rng, weak, common=None):
+    """Any law with any parameters; `weak` scales its strengths, Pa; `common`: density and elasticity, if they are not to be drawn."""
+    common = common or {"density": power(rng, 2.5, 4), "young_modulus": power(rng, 4, 11),
               "poisson_ratio": rng.choice([rng.uniform(-0.5, 0.49), 0.3, 0.49, 0.499, 0.0])}
     model = rng.choice(["elastic", "von_mises", "mohr_coulomb", "slip_weakening"])
     found = {**common, "model": model}
@@ -47,14 +47,8 @@ def law(rng, weak):
     return found
 
 
-def draw(number):
-    """Settings of a draw (cases.build) by its number."""
-    rng = random.Random(SEED * 100003 + number)
-    h = rng.choice([1.0, power(rng, -3, 3)])
-    g = rng.choice([0.0, 0.0, 9.81, power(rng, -4, 3)])
-    soil = law(rng, 2000 * max(g, 1.0) * h * 5)
-    rock = rng.choice([ROCK, {**SOIL, "density": power(rng, 2.5, 4), "young_modulus": power(rng, 5, 11)}])
-    width = rng.choice([6, 8, 12])
+def method(rng):
+    """Any way of stepping: (seismic settings, kind of base)."""
     transfer = rng.choice(["flip", "apic"])
     seismic = {"transfer": transfer, "inertia": rng.choice(["lumped", "consistent"]), "rest_below": rng.choice(["0 m/s", "1 mm/s", "10 m/s"]),
                "leaving": rng.choice(["remove", "stop"])}
@@ -63,6 +57,18 @@ def draw(number):
     base = rng.choice(["compliant", "compliant", "compliant", "fixed"])
     if base == "compliant":
         seismic["base"] = {"spring": rng.choice(["auto", "none", f"{power(rng, -3, 1)!r} s"])}
+    return seismic, base
+
+
+def draw(number):
+    """Settings of a draw (cases.build) by its number."""
+    rng = random.Random(SEED * 100003 + number)
+    h = rng.choice([1.0, power(rng, -3, 3)])
+    g = rng.choice([0.0, 0.0, 9.81, power(rng, -4, 3)])
+    soil = law(rng, 2000 * max(g, 1.0) * h * 5)
+    rock = rng.choice([ROCK, {**SOIL, "density": power(rng, 2.5, 4), "young_modulus": power(rng, 5, 11)}])
+    width = rng.choice([6, 8, 12])
+    seismic, base = method(rng)
     zone = rng.random() < 0.3
     fall = rng.choice([0, 0, 0.5, 1]) if not zone else 0
     block = rng.choice([None, None, (1, 2), (2, width - 2)])
@@ -81,4 +87,47 @@ def draw(number):
         "grid": {"softening": rng.choice(["averaged", "local"]), "volume_average": rng.choice(["none", "cell"]),
                  "interfaces": rng.choice(["averaged", "sharp"])},
         "static": static if g > 0 else {},
+    }
+
+
+def weakening(rng, found):
+    """A law that softens wherever it can, by all that a state remembers of it."""
+    if found["model"] == "von_mises" and "softening" in found:
+        found["softening"] = rng.choice([found["softening"], {"displacement": power(rng, -1, 0)}])
+        found["strength"]["residual"] = found["strength"]["peak"] * rng.uniform(0.5, 1)
+    if found["model"] == "mohr_coulomb" and rng.random() < 0.7:
+        found["friction_angle"] += (found["friction_angle"][0] * rng.random(),)
+        found["cohesion"] += (found["cohesion"][0] * rng.random(),)
+        found["softening"] = {"displacement": power(rng, -2, 0), "band_cells": rng.choice([3, 4])}
+        found["tension_cutoff"] = found["cohesion"][0] * rng.random()
+    if found["model"] == "slip_weakening":
+        found["match"] = rng.choice(["mc", "plane"])
+    return found
+
+
+def draw_to_stop(number):
+    """Settings of a draw whose ground mostly stands and then moves, for runs that are stopped and go on: test/scripts/check_continue.py."""
+    rng = random.Random(SEED * 100019 + number)
+    common = {"density": rng.uniform(1500, 2300), "young_modulus": power(rng, 6, 8), "poisson_ratio": rng.uniform(0.1, 0.45)}
+    zone, width = rng.random() < 0.3, rng.choice([8, 12])
+    seismic, base = method(rng)
+    end = rng.choice(["never", "self_driven", f"{rng.uniform(0.1, 2)!r} s"])
+    if base == "compliant":
+        seismic["motion"] = {"end": end}
+    fall = 0 if zone else rng.choice([0, 0.5, 1, 2])
+    static = {"masses": rng.choice(["physical", "scaled"]), "damping": rng.choice([0.5, 0.75]), "until": {"unbalanced": 0.02, "kinetic": 1e-4}}
+    gravity = rng.choice([0.0, 9.81, 9.81, 9.81])
+    return {
+        "n": rng.choice([1, 2, 2, 3]), "courant": rng.choice([0.78, 0.5, 0.2]), "steps": rng.choice([50, 200, 400]), "width": width,
+        "rock_cells": rng.choice([1, 3]), "soil_cells": rng.choice([3, 5]), "zone_cells": 2 if zone else 0,
+        "zone": weakening(rng, law(rng, 1e5, {**common, "young_modulus": power(rng, 6, 8)})) if zone else None,
+        "rock": {**ROCK, "young_modulus": power(rng, 7, 8.5)}, "soil": weakening(rng, law(rng, 1e5, common)), "slope": fall, "gravity": gravity,
+        "pga": power(rng, -1, 2), "base_speed": rng.choice([0.0, 0.0, rng.uniform(0, 3)]), "vertical": rng.choice([0.0, 0.0, 0.5]),
+        "seismic": seismic, "sides": rng.choice(["quiet", "roller"] if fall else ["free_field", "free_field", "quiet", "roller"]), "base": base,
+        "frames": rng.choice([1, 3]), "gauges": rng.random() < 0.7,
+        "output": {"checkpoint": {"every": rng.choice(["1 ms", "1 h"]), "keep": rng.choice([1, 2, 3])},
+                   "slide": {"moved": rng.choice(["1 m", "1 cm"]), "area": "1 m2"}},
+        "grid": {"softening": rng.choice(["averaged", "local"]), "volume_average": rng.choice(["none", "cell"]),
+                 "interfaces": rng.choice(["averaged", "sharp"])},
+        "static": static if gravity > 0 else {},
     }

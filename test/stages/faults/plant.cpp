@@ -1,14 +1,15 @@
 // Plants a fault in the state of a running stage. Linked into mpm-static-faulty and mpm-seismic-faulty, whose
 // calls of mpm::advance and mpm::solve_grid come here first (the linker's --wrap):
 //   PLANT       what: see `faults` below, or "step", which makes steps PLANT_BY times as long as the clock
-//   says PLANT_AT    after so many steps; 0 by default PLANT_BY    factor of "step", "volume" and "speed"
-//   PLANT_IN    "ground" (by default), "left" or "right": the domain
+//   says PLANT_AT    after so many steps of this process; 0 by default PLANT_BY    factor of "step", "volume"
+//   and "speed" PLANT_IN    "ground" (by default), "left" or "right": the domain
 // The particle is the one in the middle of the domain's list.
 
 #include "solver/mpm/step.hpp"
 #include "solver/stages/model.hpp"
 
 #include <cmath>
+#include <csignal>
 #include <cstdlib>
 #include <functional>
 #include <map>
@@ -61,6 +62,8 @@ const std::map<std::string, std::function<void(Domain&, int)>> faults{
          std::visit([](auto& law) { law.young *= -1; }, material.law);
      }},
     {"node", [](Domain&, int) { in_node = true; }},
+    // No fault: asks the run to end after this very step.
+    {"stop", [](Domain&, int) { std::raise(SIGTERM); }},
 };
 } // namespace
 
