@@ -32,4 +32,28 @@ void edit_sealed(const std::filesystem::path& path, const Edit& edit)
   }
   put(path, sealed(unsealed(contents(path))));
 }
+
+/// Lets a file say something else in an attribute that is a text, of a group ("/": the root).
+inline void claim(const std::filesystem::path& path, const std::string& group, const std::string& attribute,
+                  const char* text)
+{
+  const auto good = [](hid_t status)
+  {
+    if (status < 0) throw std::runtime_error("HDF5 refuses");
+    return status;
+  };
+  edit_sealed(path,
+              [&](const h5::Handle& file)
+              {
+                const h5::Handle of{good(H5Gopen(file.id(), group.c_str(), H5P_DEFAULT)), H5Gclose};
+                good(H5Adelete(of.id(), attribute.c_str()));
+                const h5::Handle type{good(H5Tcopy(H5T_C_S1)), H5Tclose};
+                good(H5Tset_size(type.id(), H5T_VARIABLE));
+                const h5::Handle space{good(H5Screate(H5S_SCALAR)), H5Sclose};
+                const h5::Handle made{good(H5Acreate(of.id(), attribute.c_str(), type.id(), space.id(),
+                                                     H5P_DEFAULT, H5P_DEFAULT)),
+                                      H5Aclose};
+                good(H5Awrite(made.id(), type.id(), &text));
+              });
+}
 } // namespace mpm::test

@@ -97,6 +97,13 @@ std::string check_seal(const fs::path& path)
   std::size_t left = std::size_t(fs::file_size(path));
   // Not even room for the seal.
   if (left < seal_length) refuse(path, "the file is not complete");
+  // The seal first: a file that was cut short is known by its last bytes, however large it is.
+  std::string seal(seal_length, '\0');
+  file.seekg(std::streamoff(left - seal_length)).read(seal.data(), std::streamsize(seal_length));
+  if (!file) refuse(path, "it cannot be read to its end");
+  if (!seal.starts_with(seal_words))
+    refuse(path, "the file is not complete: no digest stands at its end (older versions wrote none)");
+  file.seekg(0);
   Sha256 digest;
   // Read in parts: a state may be larger than the memory that is left.
   std::string part(std::size_t(1) << 20, '\0');
@@ -105,11 +112,7 @@ std::string check_seal(const fs::path& path)
     file.read(part.data(), std::streamsize(std::min(left, part.size())));
     digest.add(std::string_view(part).substr(0, std::size_t(file.gcount())));
   }
-  std::string seal(seal_length, '\0');
-  file.read(seal.data(), std::streamsize(seal_length));
   if (!file) refuse(path, "it cannot be read to its end");
-  if (!seal.starts_with(seal_words))
-    refuse(path, "the file is not complete: no digest stands at its end (older versions wrote none)");
   const std::string found = digest.hexadecimal();
   if (seal != seal_of(found)) refuse(path, "the file is damaged: it is not what was written");
   return found;

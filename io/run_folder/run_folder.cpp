@@ -103,10 +103,13 @@ RunFolder::Identity read_identity(const fs::path& path)
     std::ifstream file(path);
     RunFolder::Identity identity;
     const auto stored = nlohmann::ordered_json::parse(file);
-    if (stored.value(format_key, "") != format)
+    if (const std::string found = stored.value(format_key, "none"); found != format)
       taken(path.parent_path(),
-            "it holds a run of another version of this program, which told runs apart in another "
-            "way; finish it with that version, start anew with --fresh or choose another --out");
+            fmt::format(
+                "it holds a run of another version of this program, which told runs apart in another "
+                "way (identity.json: {} is {}, where this version has {}); finish it with that version, "
+                "start anew with --fresh or choose another --out",
+                format_key, found, format));
     for (const auto& [key, value] : stored.items())
       if (key != format_key) identity.emplace_back(key, value.get<std::string>());
     return identity;

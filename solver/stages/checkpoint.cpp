@@ -73,6 +73,19 @@ void load_clock(const h5::Group& group, Clock& clock, double at_most)
     refuse(fmt::format("step {} is at {} s, after the end of the run", clock.step, clock.time()));
 }
 
+/// A state of another layout is whole, and of use to the version that wrote it. What to do with it, and the
+/// exit code, are the caller's.
+void check_schema(const h5::File& file, const std::filesystem::path& path, int code, std::string_view advice)
+{
+  const std::string schema = file.attribute_string("schema");
+  if (schema == checkpoint::schema) return;
+  throw Error(code,
+              fmt::format("{}: its schema is {}, where this version reads {}; it was written by version "
+                          "{} ({}): {}",
+                          path.string(), schema, checkpoint::schema, file.attribute_string("version"),
+                          file.attribute_string("git"), advice));
+}
+
 /// Where the state of a column is kept.
 std::string group_of(Edge side)
 {
@@ -119,8 +132,8 @@ h5::File open_state(Session& session, const std::filesystem::path& path)
   h5::File file = open_complete(path);
   const auto refuse = [&](const std::string& what)
   { throw Error(exit_code::bad_input, fmt::format("{}: {}", path.string(), what)); };
-  const std::string schema = file.attribute_string("schema");
-  if (schema != checkpoint::schema) refuse(fmt::format("is a {}, not a {}", schema, checkpoint::schema));
+  check_schema(file, path, exit_code::folder_taken,
+               "finish the run with that, start anew with --fresh or choose another --out");
   const std::string other =
       difference(file.read_strings(checkpoint::identity), session.folder->identity_lines());
   if (!other.empty()) refuse("is of another run: it " + other);
@@ -148,9 +161,9 @@ std::string load_static_state(const Session& session, Model& model)
   const h5::File file = open_complete(session.options.from, &digest);
   const auto refuse = [&](const std::string& why)
   { throw Error(exit_code::bad_input, session.options.from.string() + ": " + why); };
-  if (file.attribute_string("schema") != checkpoint::schema || !file.exists(checkpoint::relaxation) ||
-      file.attribute_string("stage", checkpoint::clock) != "static")
-    refuse("is no static state of this version; give the final.h5 of mpm-static");
+  check_schema(file, session.options.from, exit_code::bad_input, "run mpm-static of this one");
+  if (!file.exists(checkpoint::relaxation) || file.attribute_string("stage", checkpoint::clock) != "static")
+    refuse("is no static state; give the final.h5 of mpm-static");
   if (!is_last(file)) refuse("the ground had not settled yet; give the final.h5 of mpm-static");
   const std::string other =
       difference(file.read_strings(checkpoint::ground), ground_settings(session.case_file));

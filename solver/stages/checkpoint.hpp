@@ -15,7 +15,8 @@ void write_checkpoint(Session& session, const std::string& name, const Model& mo
                       const std::function<void(h5::File&)>& fill);
 
 /// Opens a state of this very run: its layout and identity must fit, and the last state must say that it is.
-/// Warns when it was computed with other instructions. `Error` bad_input.
+/// Warns when it was computed with other instructions. `Error` bad_input; folder_taken when its schema is
+/// another version's, which can still finish the run.
 h5::File open_state(Session& session, const std::filesystem::path& path);
 /// Whether a state is the last of its stage.
 bool is_last(const h5::File& state);

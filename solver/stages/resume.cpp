@@ -30,7 +30,7 @@ Start resume(Session& session, const std::function<void()>& begin_anew,
   const RunFolder& folder = *session.folder;
   write_text_atomically(folder / resolved_name, resolved_case(session.case_file, session.options));
   std::vector<std::filesystem::path> unusable;
-  std::string lost; // a result file that a state needs beside it
+  std::string lost; // a result file that a state needs beside it, or the version that can read it
   std::optional<Start> found;
   bool spoiled = false;
   for (const auto& path : folder.states())
@@ -47,7 +47,8 @@ Start resume(Session& session, const std::function<void()>& begin_anew,
     }
     catch (const std::runtime_error& error)
     {
-      // A result file that is lost makes every state useless that wrote it, and no older one may hide that.
+      // A result file that is lost makes every state useless that wrote it, and no older one may hide that;
+      // a state of another version is not thrown away for a new start.
       const auto* ours = dynamic_cast<const Error*>(&error);
       if (ours && ours->code == exit_code::folder_taken && lost.empty()) lost = error.what();
       session.log.warn("{}; trying an older one", error.what());

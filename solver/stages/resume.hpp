@@ -22,7 +22,8 @@ enum class Start
 /// run. `load` takes it from the file, or throws; then the state is told, passed over for an older one and
 /// set aside in the end, so that pruning keeps the good ones. What `load` has spoiled is made good by
 /// `begin_anew`, before another state is tried and when none is left. `Error` folder_taken when all that a
-/// state lacks is a result file that goes with it: that file cannot be made again.
+/// state lacks is a result file that goes with it, which cannot be made again, and when the states are those
+/// of another version of the program.
 Start resume(Session& session, const std::function<void()>& begin_anew,
              const std::function<void(const h5::File&)>& load);
 } // namespace mpm

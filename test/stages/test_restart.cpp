@@ -74,24 +74,6 @@ void cut_short_and_go_on(const Bench& bench, const std::string& program,
   }
 }
 
-/// Lets a checkpoint say that it was computed with other instructions.
-void claim_vectors(const fs::path& checkpoint, const char* name)
-{
-  edit_sealed(checkpoint,
-              [&](const h5::Handle& file)
-              {
-                const h5::Handle clock{H5Gopen(file.id(), "clock", H5P_DEFAULT), H5Gclose};
-                REQUIRE(H5Adelete(clock.id(), "vectors") >= 0);
-                const h5::Handle type{H5Tcopy(H5T_C_S1), H5Tclose};
-                REQUIRE(H5Tset_size(type.id(), H5T_VARIABLE) >= 0);
-                const h5::Handle space{H5Screate(H5S_SCALAR), H5Sclose};
-                const h5::Handle attribute{
-                    H5Acreate(clock.id(), "vectors", type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT),
-                    H5Aclose};
-                REQUIRE(H5Awrite(attribute.id(), type.id(), &name) >= 0);
-              });
-}
-
 /// Kills the run at its first checkpoint after it has said that the slide is self-driven.
 void kill_when_decided(const Bench& bench, const Arguments& arguments, const fs::path& out)
 {
@@ -172,7 +154,8 @@ TEST_CASE("a run that goes on with other instructions than its checkpoint's says
     const std::string out = other ? "other" : "same";
     terminate(bench, "mpm-seismic", bench.seismic_arguments(out), bench / out);
     if (other)
-      for (const fs::path& checkpoint : checkpoints(bench / out)) claim_vectors(checkpoint, "abacus");
+      for (const fs::path& checkpoint : checkpoints(bench / out))
+        claim(checkpoint, "clock", "vectors", "abacus");
     const Ending ending = bench.run_seismic(out);
     INFO(ending.said);
     REQUIRE(ending.code == 0);
