@@ -12,13 +12,13 @@ from pathlib import Path
 import numpy as np
 from scipy.interpolate import CubicSpline
 
+import peer
 import plot_fields
 import plot_sections
 import report_motion
-import resolve_motion
 import spectrum
 from options import Parser
-from plot_common import Missing, array, frame_times, open_history, text
+from plot_common import ENVELOPES, Missing, array, envelopes, frame_times, open_history, text
 from plot_histories import read_gauges
 from report_run import Run
 from whole_file import write_whole
@@ -72,6 +72,16 @@ def table(columns):
     return out.getvalue()
 
 
+def profile(found):
+    """CSV of the greatest values of a column, from the surface down; strains, which are between rows, leave the last place empty."""
+    heads = ("greatest horizontal acceleration (m/s2)", "greatest shear strain", "greatest shear stress (Pa)")
+    columns = []
+    for head, (depth, values) in zip(heads, found.values()):
+        columns += [(f"depth (m) of the {head.split(' (')[0]}", depth[::-1]), (head, values[::-1])]
+    count = max(len(values) for _, values in columns)
+    return table([(head, [f"{value:.9g}" for value in values] + [""] * (count - len(values))) for head, values in columns])
+
+
 def names_of(group, size):
     """What the entries of a dimension are called: the labels of the group that has so many of them."""
     for key in ("component", "corner"):
@@ -85,7 +95,7 @@ def series(group, where):
     time = array(group, "time")
     columns = [("time (s)", time)]
     for name, data in group.items():
-        if name == "time" or getattr(data, "shape", ())[:1] != time.shape or data.dtype.kind != "f":
+        if name in ("time", "height", "middle_height", *ENVELOPES) or getattr(data, "shape", ())[:1] != time.shape or data.dtype.kind != "f":
             continue
         unit = text(data.attrs.get("units", "")) or "1"
         corners = ["left", "right"] if data.ndim == 3 else [""]
@@ -164,6 +174,9 @@ def histories(given):
         for where in GROUPS if not alone else ():
             if where in file:
                 files[where.replace("/", "-") + ".csv"] = table(series(file[where], where))
+        for side in ("left", "right") if not alone else ():
+            if found := envelopes(file, side):
+                files[f"free_field-{side}-profile.csv"] = profile(found)
         if "outline" in file and not alone:
             files["outline.csv"] = table([(f"{name} (m)", file[f"outline/{key}"][...]) for key, name in
                                           (("x", "x"), ("start", "height at the start"), ("end", "height"))])
@@ -227,7 +240,7 @@ def write(files, out):
     for name, content in files.items():
         path = out / name
         if isinstance(content, tuple):
-            resolve_motion.write(str(path), *content)
+            peer.write(str(path), *content)
         else:
             write_whole(path, content)
         print(path)

@@ -56,6 +56,22 @@ def open_history(folder):
     return h5py.File(path, "r")
 
 
+ENVELOPES = ("greatest_acceleration", "greatest_shear_strain", "greatest_shear_stress")
+
+
+def envelopes(file, side):
+    """Greatest values of a side's free-field column in an open history.h5, as (depth in m, value in SI) by the name of ENVELOPES.
+
+    Empty where the history is of an older run, or the ground has no such column.
+    """
+    if f"free_field/{side}/middle_height" not in file:
+        return {}
+    column = file[f"free_field/{side}"]
+    height, middle = column["height"][...], column["middle_height"][...]
+    top = height[-1] + 0.5 * (height[-1] - height[-2])  # half a row above the uppermost
+    return {name: (top - (middle if len(column[name]) == len(middle) else height), column[name][...]) for name in ENVELOPES}
+
+
 def frame_times(folder):
     """Frames in order of time, as (time in s, path); unreadable ones are named and left out."""
     frames = []

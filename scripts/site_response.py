@@ -18,6 +18,7 @@ import h5py
 import matplotlib.pyplot as plt
 import numpy as np
 
+import soil_column
 import spectrum
 from options import Parser
 from plot_common import Missing, array, group_of, open_history, read_summary, save, text
@@ -124,13 +125,8 @@ def speeds(case, layers):
 
 
 def closed_form(layers, frequency):
-    """|surface / outcrop| of elastic layers (thickness, density, speed), the last a half-space: up- and downgoing waves layer by layer."""
-    up = down = np.ones(len(frequency), dtype=complex)
-    for (thickness, density, speed), (_, below, faster) in zip(layers, layers[1:]):
-        ratio, phase = density * speed / (below * faster), np.exp(2j * np.pi * frequency * thickness / speed)
-        up, down = (0.5 * (up * (1 + ratio) * phase + down * (1 - ratio) / phase),
-                    0.5 * (up * (1 - ratio) * phase + down * (1 + ratio) / phase))
-    return 1.0 / np.abs(up)
+    """|surface / outcrop| of elastic layers (thickness, density, speed), the last a half-space."""
+    return 1.0 / np.abs(soil_column.waves(layers, frequency)[-1][0])
 
 
 def transforms(frequency, dt, *histories):

@@ -15,7 +15,7 @@ import numpy as np
 ROOT = Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(ROOT / "scripts"))
 import export
-import resolve_motion
+import peer
 from check_plots import write_frame
 from checking import report
 
@@ -86,8 +86,8 @@ def at2(folder):
     _, acceleration, _ = write_run(folder)
     exported(folder)
     paths = sorted((folder / "export").glob("gauge-*-x.AT2"))
-    errors = [np.abs(9.80665 * resolve_motion.read(path)[1] - acceleration)[2:-2].max() / PEAK for path in paths]
-    return max(errors) + abs(len(paths) - len(NAMES)) + abs(resolve_motion.read(paths[0])[2] - DT), 1e-5
+    errors = [np.abs(9.80665 * peer.read(path)[1] - acceleration)[2:-2].max() / PEAK for path in paths]
+    return max(errors) + abs(len(paths) - len(NAMES)) + abs(peer.read(paths[0])[2] - DT), 1e-5
 
 
 def measured(folder):
