@@ -7,7 +7,7 @@ import amplification
 import plot_histories
 import report_html as html
 import spectrum
-from plot_common import Missing, array, group_of, open_history
+from plot_common import ENVELOPES, Missing, array, envelopes, group_of, open_history
 from report_motion import COMPONENTS, read, shaken
 from settings import gauge_positions
 
@@ -94,12 +94,29 @@ def column_at_end(file, side):
     return levels, moved - moved[0], mean(array(column, "particles/stress")[:, 3] / 1e3), mean(strain)
 
 
+def greatest(run):
+    """Greatest acceleration, shear strain and shear stress of the columns with depth."""
+    with open_history(run.folder) as file:
+        columns = {side: found for side in ("left", "right") if (found := envelopes(file, side))}
+    if not columns:
+        return html.paragraph("The history holds no greatest values of the columns with depth: the run is of an older version.", "note")
+
+    def draw(axis, quantity, factor, name):
+        for side, column in columns.items():
+            depth, values = column[quantity]
+            axis.plot(factor * values, depth, lw=1.2, label=f"free field, {side}")
+        axis.set(xlabel=name, ylabel="depth (m)", xlim=(0, None), ylim=(max(column[quantity][0].max() for column in columns.values()), 0))
+        axis.locator_params(axis="x", nbins=4)
+        axis.legend()
+
+    kinds = zip(ENVELOPES, (1 / spectrum.GRAVITY, 100, 1e-3), ("greatest horizontal acceleration (g)", "greatest shear strain (%)",
+                                                               "greatest shear stress (kPa)"))
+    return html.grid([html.panel(lambda axis, k=kind: draw(axis, *k), f"Free field, over the whole run: {kind[2]}.", (3.9, 3.6))
+                      for kind in kinds], True)
+
+
 def profiles(run):
-    """Profiles of the free field: what the state holds of the columns, and gauges that stand below each other."""
-    told = html.paragraph("The run stores the surface and the base of the free-field columns over time, not what is between: their "
-                          "greatest acceleration, strain and stress with depth cannot be told from it. Gauges below each other "
-                          "give them where they stand. Shown is the state of the columns at the end of the run, or at its last "
-                          "checkpoint.", "note")
+    """Profiles of the free field: greatest values, what the state holds of the columns, and gauges that stand below each other."""
     state = run.state()
     with h5py.File(state, "r") as file:
         time = float(file["clock"].attrs["time"])
@@ -117,7 +134,7 @@ def profiles(run):
     kinds = ((1, "displacement relative to the base, x (m)"), (2, "shear stress τxy (kPa)"), (3, "plastic strain"))
     panels = [html.panel(lambda axis, q=q, n=n: draw(axis, q, n), f"Free field at t = {time:.2f} s: {n}.", (3.9, 3.6))
               for q, n in kinds]
-    return told + html.grid(panels, True) + arrays(run)
+    return greatest(run) + html.grid(panels, True) + arrays(run)
 
 
 def arrays(run):

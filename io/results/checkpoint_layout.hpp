@@ -5,10 +5,9 @@
 //
 //   run level         solver/stages/checkpoint.cpp
 //   /relaxation       solver/stages/relaxation.cpp
-//   /output           solver/stages/observer_resume.cpp, slide.cpp; io/results/history.cpp
-//   /motion           solver/stages/shaking.cpp, self_driven.cpp
-//   each domain       io/results/domain_state.cpp; its `boundary/NAME`, `energy`, `departed` and `rest` by
-//   the
+//   /output           solver/stages/observer_resume.cpp, slide.cpp, column_envelope.cpp;
+//   io/results/history.cpp /motion           solver/stages/shaking.cpp, self_driven.cpp each domain
+//   io/results/domain_state.cpp; its `boundary/NAME`, `energy`, `departed` and `rest` by the
 //                     visit_... of what they hold, in boundaries/ and solver/mpm/
 
 #include <array>
@@ -17,7 +16,7 @@
 namespace mpm::checkpoint
 {
 /// The version of the layout. A state of another one is refused.
-inline constexpr std::string_view schema = "seismpm-checkpoint/4";
+inline constexpr std::string_view schema = "seismpm-checkpoint/5";
 
 // Objects of the root.
 inline constexpr const char *case_text = "case", *case_resolved = "case_resolved", *overrides = "overrides",
@@ -78,6 +77,8 @@ inline constexpr std::array of_run{
     Object{"output/", In::seismic, "what the run has written down"},
     Object{"output@gauge_time", In::seismic, "last sample of the gauges, s"},
     Object{"output/history/", In::seismic, "rows of history.h5 so far, laid out as there"},
+    Object{"output/columns/", In::seismic, "the greatest values of the free-field columns so far"},
+    Object{"output/columns/SIDE/", In::seismic, "left or right"},
     Object{"output/slide/", In::seismic, "what measures of the run-out remember"},
     Object{"output/slide@time", In::seismic, "last sample of the slide, s"},
     Object{"motion/", In::seismic, "what the motion has come to"},

@@ -63,6 +63,21 @@ std::string boundary_group(const Boundary& boundary)
   return fmt::format("{}/{}", checkpoint::boundary, boundary.name());
 }
 
+/// Ids and the names of components are the axes, by which readers of netCDF-4 know the dimensions.
+void name_axes(h5::Group& group)
+{
+  group.write_strings("component", {"x", "y"});
+  group.write_strings("stress_component", {"xx", "yy", "zz", "xy"});
+  group.write_strings("affine_component", {"xx", "xy", "yx", "yy"});
+  for (const ParticleField& field : particle_fields)
+  {
+    const std::string name(field.name);
+    group.attach_scale(name, "id", 0);
+    if (field.components == 2) group.attach_scale(name, "component", 1);
+    if (field.components == 4) group.attach_scale(name, name + "_component", 1);
+  }
+}
+
 void save_particles(h5::Group group, const Particles& p)
 {
   const std::size_t count = p.size();
@@ -77,6 +92,7 @@ void save_particles(h5::Group group, const Particles& p)
     group.write(std::string(field.name), std::span<const double>(values), shape, field.unit);
   }
   group.write("id", std::span<const std::int64_t>(p.id), {count}, "1");
+  name_axes(group);
 }
 
 void save_materials(h5::Group group, const Domain& domain)

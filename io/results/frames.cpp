@@ -61,7 +61,6 @@ void write_field(h5::Group& data, const Frame::Field& field, const std::vector<s
   std::vector<hsize_t> shape{points};
   if (width > 1) shape.push_back(width);
   data.write(field.name, values, shape, field.unit, small);
-  if (!field.description.empty()) data.attribute("description", field.description, field.name);
   if (field.component_names.empty()) return;
   data.attribute("components", fmt::format("{}", fmt::join(field.component_names, " ")), field.name);
   for (std::size_t c = 0; c < width; ++c)
@@ -100,6 +99,28 @@ void link_plain_names(h5::File& file)
     file.hard_link("VTKHDF/FieldData/material_names", "material_names");
 }
 
+/// Ids and the names of components are the axes, by which readers of netCDF-4 know the dimensions.
+void name_axes(h5::File& file, const Frame& frame)
+{
+  if (frame.ids.empty()) return;
+  const auto attach = [&](const std::string& name, const std::vector<std::string>& components)
+  {
+    const std::string axis = components.size() == 3 ? "component" : name + "_component";
+    file.attach_scale("particles/" + name, "particles/id", 0);
+    if (components.empty()) return;
+    if (!file.exists("particles/" + axis)) file.write_strings("particles/" + axis, components);
+    file.attach_scale("particles/" + name, "particles/" + axis, 1);
+  };
+  const std::vector<std::string> vector{"x", "y", "z"};
+  attach("position", vector);
+  if (!frame.materials.empty()) attach("material", {});
+  for (const auto& field : frame.fields)
+  {
+    attach(field.name, field.components == 3 ? vector : field.component_names);
+    for (const auto& component : field.component_names) attach(field.name + "_" + component, {});
+  }
+}
+
 /// Everything that a frame holds, under the names of VTKHDF and under plain ones.
 void fill(h5::File& file, const Frame& frame, const Provenance& provenance)
 {
@@ -122,6 +143,7 @@ void fill(h5::File& file, const Frame& frame, const Provenance& provenance)
   if (!frame.materials.empty())
     write_materials(grid, data, ordered(frame.materials, order, 1), frame.material_names);
   link_plain_names(file);
+  name_axes(file, frame);
 }
 } // namespace
 

@@ -22,7 +22,6 @@ struct Frame
     std::vector<double> values; ///< [particle, component]
     /// What the components are called, which ParaView cannot be told: each is written as NAME_COMPONENT too.
     std::vector<std::string> component_names = {};
-    std::string description = {}; ///< an attribute, unless empty
   };
 
   double time = 0; ///< s

@@ -2,6 +2,7 @@
 // length, which h5py and xarray read as they are.
 
 #include "io/results/hdf5_calls.hpp"
+#include "io/results/long_names.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -74,6 +75,7 @@ void Group::write_numbers(const std::string& name, const Numbers& numbers, std::
   if (numbers.count > 0)
     written(H5Dwrite(data.id(), numbers.memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data), where(name));
   attribute("units", units, name);
+  if (const std::string_view words = long_name_of(name); !words.empty()) attribute("long_name", words, name);
 }
 
 void Group::write(const std::string& name, std::span<const double> values, std::vector<hsize_t> dims,

@@ -1,8 +1,8 @@
 #include "solver/stages/observer.hpp"
 
 #include "io/results/checkpoint_layout.hpp"
-#include "io/results/frames.hpp"
 #include "solver/mpm/health.hpp"
+#include "solver/stages/frame_fields.hpp"
 #include "solver/stages/interfaces.hpp"
 #include "solver/stages/motion.hpp"
 
@@ -11,81 +11,6 @@
 
 namespace mpm
 {
-namespace
-{
-/// Since the start of the stage, m.
-std::array<double, 2> displacement_of(const Domain& domain, int k)
-{
-  const Particles& p = domain.particles;
-  return {p.x[k] - p.reference_x[k], p.y[k] - p.reference_y[k]};
-}
-
-std::array<double, 2> velocity_of(const Domain& domain, int k)
-{
-  return {domain.particles.velocity_x[k], domain.particles.velocity_y[k]};
-}
-
-/// A field of a frame by its name, for all particles in their order: displacement, velocity, what each
-/// particle has (particle_fields), or a history variable of a law, 0 where the particle's law has none.
-/// Vectors have three components, as VTK wants them.
-Frame::Field frame_field(const Domain& domain, const std::string& name)
-{
-  const Particles& p = domain.particles;
-  const int count = p.size();
-  const auto vector = [&](const auto& of)
-  {
-    std::vector<double> values;
-    for (int k = 0; k < count; ++k)
-    {
-      const auto [x, y] = of(domain, k);
-      values.insert(values.end(), {x, y, 0});
-    }
-    return values;
-  };
-  if (name == "displacement") return {name, "m", 3, vector(displacement_of)};
-  if (name == "velocity") return {name, "m/s", 3, vector(velocity_of)};
-  for (const ParticleField& field : particle_fields)
-  {
-    if (field.name != name) continue;
-    Frame::Field result{name, std::string(field.unit), field.components, {}};
-    for (int k = 0; k < count; ++k)
-      for (int c = 0; c < field.components; ++c) result.values.push_back((p.*field.data[c])[k]);
-    if (name == "stress") result.component_names = {"xx", "yy", "zz", "xy"};
-    return result;
-  }
-  // A history variable: each material keeps those of its own particles.
-  Frame::Field result{name, "1", 1, std::vector<double>(count, 0.0)};
-  for (std::size_t m = 0; m < domain.materials.size(); ++m)
-  {
-    const Material& material = domain.materials[m];
-    for (std::size_t f = 0; f < material.state.size(); ++f)
-    {
-      if (material.state_fields()[f].name != name) continue;
-      result.unit = material.state_fields()[f].unit;
-      std::copy(material.state[f].begin(), material.state[f].end(),
-                result.values.begin() + domain.material_begin[m]);
-    }
-  }
-  return result;
-}
-
-/// p = -tr(sigma) / 3 and q = sqrt(3 J2) out of the stresses of a frame.
-std::vector<Frame::Field> invariants_of(const Frame::Field& stress)
-{
-  Frame::Field p{"p", "Pa", 1,
-                 {},  {},   "mean pressure -(xx + yy + zz) / 3 of the stress: compression is positive"};
-  Frame::Field q{"q", "Pa", 1, {}, {}, "Mises stress sqrt(3 J2)"};
-  for (std::size_t k = 0; k < stress.values.size(); k += 4)
-  {
-    const double* s = &stress.values[k];
-    const Deviator deviator(s[0], s[1], s[2], s[3]);
-    p.values.push_back(-deviator.mean);
-    q.values.push_back(deviator.mises());
-  }
-  return {p, q};
-}
-} // namespace
-
 Observer::Observer(Session& session, Model& model, const IncomingWave& wave)
     : session_(session), model_(model), wave_(wave), slide_(model, session.case_file)
 {
@@ -115,7 +40,9 @@ void Observer::add_series()
     sides_.push_back({column, history_.add_series(group + "surface_displacement", "m", {component}, fast_),
                       history_.add_series(group + "surface_velocity", "m/s", {component}, fast_),
                       history_.add_series(group + "base_displacement", "m", {component}, fast_),
-                      history_.add_series(group + "base_velocity", "m/s", {component}, fast_)});
+                      history_.add_series(group + "base_velocity", "m/s", {component}, fast_),
+                      ColumnEnvelope(*column, session_.case_file.grid.particle_spacing()),
+                      std::string(side_name(side))});
   }
   slide_.add_series(history_, slow_);
   add_energy_series();
@@ -199,8 +126,9 @@ void Observer::sample_gauges(const Clock& clock)
   }
   last_velocity_ = v;
   last_time_ = clock.time();
-  for (const Side& side : sides_)
+  for (Side& side : sides_)
   {
+    side.envelope.sample(clock.time());
     const Domain& column = *side.column->domain;
     const int top = side.column->particle_of_row(side.column->rows() - 1),
               bottom = side.column->particle_of_row(0);
@@ -240,33 +168,13 @@ void Observer::sample_base()
   history_.record(greatest_drift_, drift.greatest);
 }
 
-/// A frame needs position, material and volume of each particle, whatever fields the case asks for: pictures
-/// draw particles as large as they are.
 void Observer::write_frame(const Clock& clock)
 {
-  const Domain& main = *model_.main;
-  check_particles(main); // throws Diverged: what has diverged is not drawn
-  Frame frame;
-  frame.time = clock.time();
-  frame.step = clock.step;
-  for (int k = 0; k < main.particles.size(); ++k)
-    frame.points.insert(frame.points.end(), {main.particles.x[k], main.particles.y[k], 0});
-  std::vector<std::string> fields = session_.case_file.output.frames.fields;
-  if (std::find(fields.begin(), fields.end(), "volume") == fields.end()) fields.push_back("volume");
-  for (const std::string& name : fields) frame.fields.push_back(frame_field(main, name));
-  if (const auto stress = std::find(fields.begin(), fields.end(), "stress"); stress != fields.end())
-    for (Frame::Field& field : invariants_of(frame.fields[stress - fields.begin()]))
-      frame.fields.push_back(std::move(field));
-  frame.ids = main.particles.id;
-  frame.materials.resize(main.particles.size());
-  for (std::size_t m = 0; m < main.materials.size(); ++m)
-    std::fill(frame.materials.begin() + main.material_begin[m],
-              frame.materials.begin() + main.material_begin[m + 1],
-              main.materials[m].origin < 0 ? m : main.materials[m].origin); // a mixture is its owner's
-  for (const Material& material : session_.case_file.materials) frame.material_names.push_back(material.name);
+  check_particles(*model_.main); // throws Diverged: what has diverged is not drawn
   const std::string name = frame_name(static_cast<std::int64_t>(frames_.size()));
-  const std::string digest = mpm::write_frame(*session_.folder / name, frame, session_.provenance());
-  frames_.push_back({name, clock.time(), digest});
+  const Frame frame = frame_of(*model_.main, session_.case_file, clock);
+  frames_.push_back(
+      {name, clock.time(), mpm::write_frame(*session_.folder / name, frame, session_.provenance())});
   write_frame_times();
 }
 
@@ -286,6 +194,11 @@ void Observer::save(h5::File& file) const
   group.write_strings("frame_digests", digests);
   group.write("gauge_velocity", std::span<const double>(last_velocity_), {last_velocity_.size()}, "m/s");
   group.attribute("gauge_time", last_time_);
+  for (const Side& side : sides_)
+  {
+    h5::Group column = group.create_group("columns/" + side.name);
+    side.envelope.save(column);
+  }
   h5::Group slide = group.create_group("slide");
   slide_.save(slide);
 }
@@ -306,7 +219,33 @@ void Observer::write(double until) const
                  {
                    write_motion(file, wave_, session_.case_file.output.gauges.every, until);
                    slide_.write(file);
+                   write_gauge_places(file);
+                   for (const Side& side : sides_)
+                   {
+                     h5::Group group = file.open_group("free_field/" + side.name);
+                     side.envelope.write(group);
+                   }
                  });
+}
+
+/// Where the gauges stood at the start, as coordinates of their series.
+void Observer::write_gauge_places(h5::File& file) const
+{
+  const std::vector<Gauge>& gauges = model_.main->gauges;
+  if (gauges.empty()) return;
+  std::vector<double> x, y;
+  for (const Gauge& gauge : gauges)
+  {
+    x.push_back(gauge.reference_x);
+    y.push_back(gauge.reference_y);
+  }
+  for (const auto& [name, values] : {std::pair{"gauges/gauge_x", &x}, std::pair{"gauges/gauge_y", &y}})
+  {
+    file.write(name, *values, {}, "m");
+    file.attach_scale(name, "gauges/gauge", 0);
+  }
+  for (const char* name : {"gauges/displacement", "gauges/velocity", "gauges/acceleration"})
+    file.attribute("coordinates", "gauge_x gauge_y", name);
 }
 
 nlohmann::json Observer::summary() const

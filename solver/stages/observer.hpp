@@ -2,6 +2,7 @@
 
 #include "io/results/history.hpp"
 #include "solver/stages/clock.hpp"
+#include "solver/stages/column_envelope.hpp"
 #include "solver/stages/session.hpp"
 #include "solver/stages/slide.hpp"
 
@@ -38,6 +39,8 @@ private:
   {
     const FreeFieldColumn* column;
     History::Series surface_displacement, surface_velocity, base_displacement, base_velocity;
+    ColumnEnvelope envelope;
+    std::string name;
   };
   /// The energy balance of a domain as series.
   struct EnergySeries
@@ -54,6 +57,7 @@ private:
   void sample_base();
   void write_frame(const Clock& clock);
   void write_frame_times() const;
+  void write_gauge_places(h5::File& file) const;
 
   Session& session_;
   Model& model_;

@@ -62,6 +62,7 @@ void Observer::load(const h5::File& file, const Clock& clock, double first_step)
   for (std::size_t k = 0; k < last_velocity_.size(); ++k)
     if (!std::isfinite(last_velocity_[k]) && !std::isnan(model_.main->gauges[k / 2].x))
       refuse(group, "gauge_velocity", "is not finite");
+  for (Side& side : sides_) side.envelope.load(group.open_group("columns/" + side.name), last_time_);
   slide_.load(group.open_group("slide"), clock.time());
   const std::vector<double> times = group.read_doubles("frame_times");
   check_times(group, "frame_times", times, output.frames.every + first_step, clock.time());

@@ -50,7 +50,8 @@ TEST_CASE("a frame gives its fields under plain names with units", "[io]")
   CHECK(file.attribute_int("step") == frame.step);
   const h5::Group particles = file.open_group("particles");
   CHECK(particles.children() ==
-        std::vector<std::string>{"id", "material", "plastic_strain", "position", "velocity"});
+        std::vector<std::string>{"component", "id", "material", "plastic_strain", "position", "velocity"});
+  CHECK(particles.read_strings("component") == std::vector<std::string>{"x", "y", "z"});
   CHECK(particles.read_doubles("velocity") == frame.fields[0].values);
   CHECK(particles.attribute_string("units", "velocity") == "m/s");
   CHECK(particles.read_ints("id") == frame.ids);
@@ -82,7 +83,7 @@ TEST_CASE("a frame names materials and components", "[io]")
   frame.material_names = {"clay", "Löss"};
   frame.fields.push_back(
       {"stress", "Pa", 4, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}, {"xx", "yy", "zz", "xy"}});
-  frame.fields.push_back({"p", "Pa", 1, {1, 2, 3}, {}, "compression is positive"});
+  frame.fields.push_back({"p", "Pa", 1, {1, 2, 3}});
   write_frame(folder / "a.hdf", frame, {});
   const h5::File file = open_complete(folder / "a.hdf");
   CHECK(file.read_strings("material_names") == frame.material_names);
@@ -94,7 +95,7 @@ TEST_CASE("a frame names materials and components", "[io]")
   CHECK(particles.read_doubles("stress_yy") == std::vector<double>{2, 6, 10});
   CHECK(particles.read_doubles("stress_xy") == std::vector<double>{4, 8, 12});
   CHECK(particles.attribute_string("units", "stress_xy") == "Pa");
-  CHECK(particles.attribute_string("description", "p") == "compression is positive");
+  CHECK_THAT(particles.attribute_string("long_name", "p"), Catch::Matchers::Contains("compression positive"));
 }
 
 TEST_CASE("a field that does not fit its particles is refused", "[io]")

@@ -45,6 +45,10 @@ def write_run(folder):
         file["gauges/time"], file["gauges/gauge"] = time, NAMES
         for name, values in (("velocity", velocity), ("displacement", moved)):
             file[f"gauges/{name}"] = np.tile(np.stack([values, 0 * values], axis=1)[:, None], (1, len(NAMES), 1))
+        file["free_field/left/time"], file["free_field/left/surface_velocity"] = time, np.stack([velocity, 0 * velocity], axis=1)
+        for name, values in (("height", [0.5, 1.5, 2.5]), ("middle_height", [1.0, 2.0]), ("greatest_acceleration", [1.0, 2.0, 3.0]),
+                             ("greatest_shear_strain", [1e-3, 2e-3]), ("greatest_shear_stress", [5e3, 4e3])):
+            file[f"free_field/left/{name}"] = np.array(values)
         file["slide/time"], file["slide/component"] = time, ["x", "y"]
         file["slide/centre_of_mass_displacement"] = np.stack([moved, -moved], axis=1)
         file["slide/centre_of_mass_displacement"].attrs["units"] = "m"
@@ -101,6 +105,17 @@ def measured(folder):
     return max(abs(found[name][row] / value - 1) for name, value in expected.items()), 2e-4
 
 
+def profile(folder):
+    """The greatest values of a column stand in a table from the surface (3 m) down, and in no other."""
+    write_run(folder)
+    assert exported(folder)[0] == 0
+    with open(folder / "export" / "free_field-left-profile.csv", newline="") as file:
+        head, *rows = csv.reader(file)
+    expected = [["0.5", "3", "1", "0.002", "1", "4000"], ["1.5", "2", "2", "0.001", "2", "5000"], ["2.5", "1", "", "", "", ""]]
+    series = list(columns(folder / "export" / "free_field-left.csv"))
+    return float(rows != expected) + (len(head) != 6) + (series != ["time (s)", "surface velocity 0 (1)", "surface velocity 1 (1)"]), 0
+
+
 def section(folder):
     """A section has the particles on its line from the surface down, each with its fields."""
     write_run(folder)
@@ -149,7 +164,7 @@ def read_back(folder):
 
 def checks():
     """Name and (error, tolerance) of every check."""
-    for check in (tables, at2, measured, section, refusals, read_back):
+    for check in (tables, at2, measured, profile, section, refusals, read_back):
         with tempfile.TemporaryDirectory() as folder:
             yield check.__doc__, check(Path(folder))
 

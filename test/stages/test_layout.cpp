@@ -17,7 +17,8 @@ using Found = std::set<std::string>;
 /// Attributes of an object, but for those that datasets have for readers of HDF5.
 std::vector<std::string> attributes(hid_t file, const std::string& object)
 {
-  static const std::set<std::string> technical{"units", "CLASS", "NAME", "REFERENCE_LIST", "DIMENSION_LIST"};
+  static const std::set<std::string> technical{"units", "long_name",      "CLASS",
+                                               "NAME",  "REFERENCE_LIST", "DIMENSION_LIST"};
   std::vector<std::string> names;
   std::array<char, 200> name{};
   for (hsize_t k = 0; H5Aget_name_by_idx(file, object.c_str(), H5_INDEX_NAME, H5_ITER_INC, k, name.data(),
