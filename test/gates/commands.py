@@ -19,7 +19,7 @@ import tree
 BUILD = tree.ROOT / "build"
 SHELL = {"sh", "bash", "shell", "console"}
 PRINTING = {"--help", "--version", "--keys", "--list", "--check", "--print-case", "--schema", "--example"}
-OTHERS = {"cd", "git", "cmake", "ctest", "apt-get", "mkdir", "python3", "export", "nohup", "rm", "tail", "paraview"}  # no programs of ours
+OTHERS = {"cd", "git", "cmake", "ctest", "apt-get", "mkdir", "python3", "export", "nohup", "rm", "cp", "tail", "paraview"}  # no programs of ours
 STAGES = ("mpm-static", "mpm-seismic")
 BUILT = (*STAGES, "seismpm-tests", "seismpm-verify")  # the others only when they are asked for
 NO_PROGRAMS = {"scripts/find-python", "scripts/find-programs", "scripts/install-packages"}  # without options
