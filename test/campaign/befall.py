@@ -222,7 +222,7 @@ def why_skipped(what):
 
 def may_say_why(what):
     """Whether what is left may be beyond mending: then a refusal that says why will do."""
-    return what.get("back") or (what["kind"] == "damage" and Path(what.get("damaged", "")).suffix in (".hdf", ".json"))
+    return what.get("back") or what["kind"] == "removed" or (what["kind"] == "damage" and Path(what.get("damaged", "")).suffix in (".hdf", ".json"))
 
 
 def judge(bench, subject, what, endings):
