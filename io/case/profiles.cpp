@@ -191,6 +191,7 @@ ProfileChoice choose(const StandardProfile& profile, const Case& case_file)
   {
     set("seismic.transfer", profile.papers_method ? "apic" : "flip");
     set("seismic.inertia", profile.papers_method ? "lumped" : "consistent");
+    set("time_step.courant_number", profile.papers_method ? "0.5" : "0.7");
     // The paper's transfer filters in every step; a filter of the case was meant for the other one.
     if (profile.papers_method) set("seismic.filter.time", "0 s"), set("seismic.filter.strain", "0");
   }

@@ -75,6 +75,8 @@ TEST_CASE("a profile of every case has cells for the waves, the layers and the s
   CHECK(loaded(shaken, "standard").grid.spacing == Approx(0.6));
   CHECK(loaded(shaken, "fine").grid.spacing == Approx(0.4));
   CHECK(loaded(shaken, "paper").grid.spacing == Approx(0.25));
+  CHECK(loaded(shaken, "quick").courant_number == 0.7);
+  CHECK(loaded(shaken, "quick", {"time_step.courant_number=0.4"}).courant_number == 0.4);
 }
 
 TEST_CASE("a profile's cells do not depend on the case's own, nor on its having any", "[io]")
@@ -108,6 +110,8 @@ TEST_CASE("the profile paper is the paper's method, also where a case was meant 
   CHECK(paper.seismic.transfer == Transfer::apic);
   CHECK(paper.seismic.inertia == Inertia::lumped);
   CHECK(paper.seismic.filter.time == 0);
+  CHECK(loaded(shaken, "paper", {"time_step.courant_number=0.3"}).courant_number == 0.3);
+  CHECK(paper.courant_number == 0.5);
   // Without a seismic section there is nothing to say of it, and none is made.
   CHECK(loaded(slope, "paper").seismic.duration == 0);
   CHECK(loaded(slope, "paper").grid.spacing == paper.grid.spacing);
