@@ -64,8 +64,11 @@ def measured(gauges, time, component):
     return {measure.name: value for measure, value in found.items()}
 
 
-def layered(layers, speed, component, time):
-    """Surface and rockhead of layers [(thickness m, material)], surface first, on 10 m of rock over the base."""
+def layered_waves(layers, speed, time):
+    """Displacements (m) and velocities (m/s) {name: (u, v)} at surface and rockhead of layers [(thickness m, material)].
+
+    Surface first, on 10 m of rock over the base.
+    """
     step, count = 5e-4, 2**17
     t = np.arange(count) * step
     omega = 2 * np.pi * np.fft.rfftfreq(count, step)
@@ -82,7 +85,12 @@ def layered(layers, speed, component, time):
         velocity = np.fft.irfft(response, count)
         way = np.concatenate([[0.0], np.cumsum(0.5 * step * (velocity[1:] + velocity[:-1]))])
         gauges[name] = np.interp(time, t, way), np.interp(time, t, velocity)
-    return measured(gauges, time, component)
+    return gauges
+
+
+def layered(layers, speed, component, time):
+    """Measures of layered_waves(), which move along the component."""
+    return measured(layered_waves(layers, speed, time), time, component)
 
 
 def yielding(time, cells=480):
@@ -116,14 +124,18 @@ def yielding(time, cells=480):
     return measured(gauges, time, 0)
 
 
-def hill(time):
-    """Velocities of the reference of cases/verification/hill; it has no displacements worth a measure."""
+def hill_waves(time):
+    """Velocities (m/s) of the reference of cases/verification/hill {name: (0, v)}; it has no displacements worth a measure."""
     with open(VERIFICATION / "hill" / "reference.csv", encoding="utf-8") as file:
         rows = list(csv.reader(line for line in file if not line.startswith("#")))
     table = dict(zip(rows[0], np.array(rows[1:], dtype=float).T))
     names = [name[:-2] for name in rows[0] if name.endswith("_x")]
-    gauges = {name: (0 * time, np.interp(time, table["time"], table[f"{name}_x"])) for name in names}
-    return {name: value for name, value in measured(gauges, time, 0).items() if not name.endswith(".displacement")}
+    return {name: (0 * time, np.interp(time, table["time"], table[f"{name}_x"])) for name in names}
+
+
+def hill(time):
+    """Measures of hill_waves()."""
+    return {name: value for name, value in measured(hill_waves(time), time, 0).items() if not name.endswith(".displacement")}
 
 
 SITE = ["--set", "domain.x=[0 m, 12 m]", "--set", "output.frames.every=2 s",

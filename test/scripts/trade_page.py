@@ -66,7 +66,7 @@ def verdicts(known):
 
 
 def panel(axis, scene, rows, shifts, _):
-    """One scene. Knobs that change nothing are dots without a name: those within the noise floor of the default's error."""
+    """One scene. Knobs that change little are dots without a name: error within a fifth, or the noise floor, of the default's."""
     norm = (WAVES if scene.gauges else SLIDES)[0]
     floor = floors(rows, shifts)[norm]
     usual = next((row[4][norm] for row in rows if row[:2] == ("default", scene.turned)), np.nan)
@@ -76,7 +76,7 @@ def panel(axis, scene, rows, shifts, _):
     for knob, _, work, _, errors in rows:
         if not knob.startswith(("default", "paper")) and np.isfinite(errors[norm]):
             axis.plot(work, errors[norm], "k.", ms=5)
-            if not abs(errors[norm] - usual) <= floor or knob.startswith("Courant"):
+            if not abs(errors[norm] - usual) <= max(floor, usual / 5) or knob.startswith("Courant"):
                 axis.annotate(knob, (work, errors[norm]), fontsize=7.5, xytext=(4, 2), textcoords="offset points")
     axis.axhline(floor, color="grey", lw=0.8, ls="-.", label="noise floor")
     axis.set(xscale="log", yscale="log", title=scene.name, xlabel="particle-steps", ylabel=f"error of {norm}")
