@@ -25,7 +25,7 @@ BUILT = (*STAGES, "seismpm-tests", "seismpm-verify")  # the others only when the
 NO_PROGRAMS = {"scripts/find-python", "scripts/find-programs", "scripts/install-packages"}  # without options
 WITHOUT_FILES = {"--out", "--from", "--motion", "--vertical", "--record-dt", "--record-unit", "--record-format",
                  "--record-component", "--vertical-component"}  # what --print-case of a case does not need
-OURS = re.compile(r"(\S*/)?(scripts/[\w-]+|build[\w-]*/[\w-]+|mpm-static|mpm-seismic|seismpm-\w+)$|seismpm$")
+OURS = re.compile(r"(\S*/)?(scripts/[\w-]+|test/campaign/campaign|build[\w-]*/[\w-]+|mpm-static|mpm-seismic|seismpm-\w+)$|seismpm$")
 STANDS_FOR = re.compile(r"[\[\]<>*{}|…$]|\.\.\.|\b[A-Z]{1,}[A-Z_]*\b(?![\w-]*\d)")
 PATH = re.compile(r"(scripts|test|cases|solver|io|boundaries|materials)/[\w./-]+$")
 
@@ -80,6 +80,8 @@ def run(*words):
 @functools.lru_cache(None)
 def program(word):
     """Path of a program of ours as a page names it; where it is built, of the build that is tested."""
+    if word.startswith("test/"):
+        return word
     name = word.rsplit("/", 1)[-1]
     return f"scripts/{name}" if re.search(r"(^|/)scripts/|^seismpm$", word) else f"build/{name}"
 
