@@ -106,7 +106,8 @@ int main(int argc, char** argv)
 {
   Options options;
   CLI::App app{
-      "Runs the verification ladder of cases/verification: exit code 0 when every row passes, 1 when not"};
+      "Runs the verification ladder of cases/verification: exit code 0 when every row passes, 1 when not",
+      "seismpm-verify"};
   app.set_version_flag("--version",
                        fmt::format("seismpm-verify {} ({})", mpm::version::number, mpm::version::git));
   app.add_option("--out", options.out, "folder for RESULTS.md and results.json")->type_name("DIR");
