@@ -38,8 +38,9 @@ def scene_of(given):
     time, path = plot_sections.choose(frames, [given.time])[0] if given.time is not None else frames[-1]
     with h5py.File(path, "r") as file, h5py.File(frames[0][1], "r") as first:
         particles = file["particles"]
-        if given.field not in particles or not len(particles[given.field]):
-            raise Missing(f"{path.name} has no {given.field}; it has: {', '.join(particles)}")
+        fields = [name for name, data in particles.items() if data.dtype.kind in "fi" and len(data) == len(particles["id"])]
+        if given.field not in fields or not len(particles["id"]):
+            raise Missing(f"{path.name} has no {given.field}; it has: {', '.join(fields)}")
         values = particles[given.field][...].reshape(len(particles["id"]), -1)
         size = float(np.sqrt(np.median(first["particles/volume"][...])))
         places = np.concatenate([part["particles/position"][:, :2] for part in (first, file)])
