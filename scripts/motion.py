@@ -22,6 +22,7 @@ import soil_column
 import spectrum
 from motion_page import draw
 from options import Parser
+from whole_file import write_whole
 
 PERCENTILES = (50, 100)
 
@@ -170,9 +171,7 @@ def write(options, record, motion, columns):
     options.out.parent.mkdir(parents=True, exist_ok=True)
     series = [("time (s)", motion.dt * np.arange(len(motion.acceleration))), ("acceleration (m/s2)", motion.acceleration)]
     for path, columns_of in ((options.out.with_suffix(".csv"), series), (spectrum_path(options.out), columns)):
-        part = path.with_name(path.name + ".part")
-        part.write_text(table(motion.done, columns_of), encoding="utf8")
-        part.replace(path)
+        write_whole(path, table(motion.done, columns_of))
     head = ["seismpm motion, " + motion.done[0], "; ".join(motion.done[1:]) or "as recorded", "ACCELERATION TIME SERIES IN UNITS OF G"]
     head = [line.encode("ascii", "replace").decode() for line in head]
     peer.write(str(options.out), head, motion.acceleration / peer.GRAVITY, motion.dt)
