@@ -4,6 +4,7 @@
 #include "io/case/sections.hpp"
 #include "io/common/error.hpp"
 #include "io/common/input_file.hpp"
+#include "io/common/printable.hpp"
 
 #include <fmt/format.h>
 
@@ -16,6 +17,9 @@ namespace
 // Raised when a case of the old form would mean something else; keys that only got another name are in
 // renamed_keys.hpp.
 constexpr std::string_view schema = "seismpm-case/1";
+// As many as are read back from a case that is written out: a point of a surface is two, and three values of
+// YAML.
+constexpr std::size_t most_settings = 50'000;
 
 /// The case as text; `Error` input_missing.
 std::string read_file(const std::filesystem::path& path)
@@ -162,7 +166,7 @@ void read_parts(Case& case_file, const YamlNode& tree, Problems& problems)
   const std::filesystem::path folder = case_file.path.parent_path();
   Section root(&tree, problems);
   check_schema(root);
-  case_file.name = root.text_or(case_file.path.stem().string(),
+  case_file.name = root.text_or(printable(case_file.path.stem().string(), ""),
                                 {"name", "for messages and pictures", "", "name of the file"});
   case_file.grid = read_grid(root.section("grid"));
   case_file.domain = read_domain(root.section("domain"), problems);
@@ -176,6 +180,11 @@ void read_parts(Case& case_file, const YamlNode& tree, Problems& problems)
       time_step, case_file.courant_number,
       "Courant number dt c_p / h; with seismic.transfer: apic a smaller one damps waves more");
   case_file.output = read_output(root, case_file.materials, problems);
+  if (const std::size_t count = problems.settings.entries().size(); count > most_settings)
+    root.error("surfaces",
+               fmt::format("are of so many points that the case has {} values, and {} are read; thin "
+                           "them out, a point for each cell is enough",
+                           count, most_settings));
 }
 
 Case load_case(const std::filesystem::path& path, const std::vector<std::string>& overrides,

@@ -14,6 +14,8 @@ using namespace records;
 
 namespace
 {
+constexpr std::size_t most_points = 20'000; // each becomes a setting of the case
+
 /// Why a file is no line of the ground, with its row.
 struct BadRow
 {
@@ -151,6 +153,9 @@ Polyline parse_line(const std::vector<Line>& lines)
     if (has_decimal_commas(text)) throw BadRow{line.number, "has decimal commas; write decimal points"};
     const auto numbers = numbers_in(text);
     if (!numbers || numbers->size() != 2) throw BadRow{line.number, "must be two numbers, x and y in m"};
+    if (polyline.x.size() == most_points)
+      throw BadRow{line.number, "is the point after " + std::to_string(most_points) +
+                                    ", more than are read; thin them out, a point for each cell is enough"};
     const auto [x_unit, y_unit] = units.si(line.number);
     polyline.x.push_back((*numbers)[0] * x_unit);
     polyline.y.push_back((*numbers)[1] * y_unit);

@@ -174,7 +174,13 @@ std::vector<Material> read_materials(Section& root, double spacing, Problems& pr
     problems.add(node->location, node->path,
                  "holds no material; give a map of names, as 'rock: {model: elastic, ...}'");
   for (const YamlNode& child : node->children)
-    if (!child.key.empty()) materials.push_back(read_material(child, spacing, problems));
+  {
+    // States keep a material in a group of its name, and averaged ones in groups of "NAME ~1" and so on.
+    if (child.key.find_first_of("/~") != std::string::npos || child.key == ".")
+      problems.add(child.key_location, child.path,
+                   "names a part of result files; write a name without / and ~");
+    materials.push_back(read_material(child, spacing, problems));
+  }
   return materials;
 }
 

@@ -16,10 +16,17 @@ namespace
 {
 using Kind = YamlNode::Kind;
 
-/// "a.b[0]" as a, b and [0]; names in quotation marks are whole.
-std::vector<std::string> steps_of(std::string_view path)
+/// A part of a key path.
+struct Step
 {
-  std::vector<std::string> steps(1);
+  std::string name;      ///< of a map's child, or the number of a list's
+  bool is_index = false; ///< of a list
+};
+
+/// "a.b[0]" as a, b and 0; names in quotation marks are whole.
+std::vector<Step> steps_of(std::string_view path)
+{
+  std::vector<Step> steps(1);
   bool quoted = false;
   for (const char c : path)
     if (c == '"')
@@ -27,20 +34,23 @@ std::vector<std::string> steps_of(std::string_view path)
     else if (c == '.' && !quoted)
       steps.emplace_back();
     else if (c == '[' && !quoted)
-      steps.emplace_back("[");
+      steps.push_back({"", true});
     else if (c != ']' || quoted)
-      steps.back() += c;
+      steps.back().name += c;
   return steps;
 }
 
 /// The child of that name or number, made at the end if there is none.
-YamlNode& below(YamlNode& node, const std::string& step)
+YamlNode& below(YamlNode& node, const Step& step)
 {
-  node.kind = step.starts_with('[') ? Kind::list : Kind::map;
+  node.kind = step.is_index ? Kind::list : Kind::map;
+  // Elements of lists, and the keys below them, come in their order: lists may be long.
+  const bool is_next = step.is_index && step.name == std::to_string(node.children.size());
+  if (!node.children.empty() && node.children.back().key == step.name) return node.children.back();
   for (YamlNode& child : node.children)
-    if (child.key == step) return child;
+    if (!is_next && child.key == step.name) return child;
   YamlNode& made = node.children.emplace_back();
-  made.key = step;
+  made.key = step.name;
   return made;
 }
 
@@ -113,7 +123,7 @@ std::string to_yaml(const Settings::Entries& settings)
   for (const auto& [path, value] : settings)
   {
     YamlNode* node = &root;
-    for (const std::string& step : steps_of(path)) node = &below(*node, step);
+    for (const Step& step : steps_of(path)) node = &below(*node, step);
     node->kind = Kind::scalar;
     node->text = value;
   }

@@ -1,19 +1,31 @@
 #include "io/case/yaml_tree.hpp"
 
+#include "io/case/yaml_limits.hpp"
+#include "io/common/printable.hpp"
 #include "io/common/suggestion.hpp"
 
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
 #include <charconv>
+#include <unordered_set>
 #include <utility>
 
 namespace mpm
 {
 namespace
 {
-constexpr int deepest = 20;         // levels; an alias that contains itself has no end
-constexpr int most_nodes = 100'000; // aliases of aliases multiply
+constexpr const char* too_large = "is nested too deeply or is too large";
+
+/// What is wrong with a name; empty: nothing. Names become paths of keys, in which quotation marks hold them
+/// together, and they are printed.
+std::string name_problem(const std::string& name, bool is_path)
+{
+  if (name.empty()) return "has a key without a name";
+  if (printable(name, "") != name) return "has a key with characters that do not print: '" + name + "'";
+  if (!is_path && name.find('"') != name.npos) return "has a key with a quotation mark: '" + name + "'";
+  return {};
+}
 
 /// Turns yaml-cpp's nodes into ours.
 struct Builder
@@ -36,9 +48,9 @@ struct Builder
     YamlNode node;
     node.path = path;
     node.location = location_of(from.Mark());
-    if (depth > deepest || ++nodes > most_nodes)
+    if (depth > deepest_yaml || ++nodes > most_yaml_nodes)
     {
-      if (!too_much) problems.add(node.location, path, "is nested too deeply or is too large");
+      if (!too_much) problems.add(node.location, path, too_large);
       too_much = true;
       return node;
     }
@@ -46,6 +58,8 @@ struct Builder
     {
       node.kind = YamlNode::Kind::scalar;
       node.text = from.Scalar();
+      if (printable(node.text) != node.text)
+        problems.add(node.location, path, "has characters that do not print: '" + node.text + "'");
     }
     else if (from.IsSequence())
     {
@@ -56,31 +70,36 @@ struct Builder
     else if (from.IsMap())
     {
       node.kind = YamlNode::Kind::map;
-      for (const auto& member : from) // yaml-cpp keeps duplicates here
+      std::unordered_set<std::string> names; // many keys are looked through once
+      for (const auto& member : from)        // yaml-cpp keeps duplicates here
       {
         if (too_much) break;
-        add_member(node, member.first, member.second, depth);
+        add_member(node, member.first, member.second, depth, names);
       }
     }
     return node;
   }
 
-  void add_member(YamlNode& map, const YAML::Node& key, const YAML::Node& value, int depth)
+  void add_member(YamlNode& map, const YAML::Node& key, const YAML::Node& value, int depth,
+                  std::unordered_set<std::string>& names)
   {
     const Location location = location_of(key.Mark());
     if (!key.IsScalar()) return problems.add(location, map.path, "has a key that is not a plain word");
     const std::string& name = key.Scalar();
     // The keys of a profile are paths, whose dots are no part of a name.
-    const std::string part =
-        map.path.starts_with("profiles.") ? name : path_part(name); // key paths themselves
+    const bool is_path = map.path.starts_with("profiles.");
+    if (const std::string problem = name_problem(name, is_path); !problem.empty())
+      return problems.add(location, map.path, problem + "; write another");
+    const std::string part = is_path ? name : path_part(name);
     const std::string path = map.path.empty() ? part : map.path + "." + part;
-    if (const YamlNode* first = map.child(name))
+    if (!names.insert(name).second)
+    {
+      const int first = map.child(name)->key_location.line;
       return problems.add(location, path,
                           "is given twice" +
-                              (first->key_location.line
-                                   ? ", first in line " + std::to_string(first->key_location.line)
-                                   : std::string()) +
+                              (first ? ", first in line " + std::to_string(first) : std::string()) +
                               "; leave one");
+    }
     YamlNode child = build(value, path, depth + 1);
     child.key = name;
     child.key_location = location;
@@ -128,6 +147,8 @@ YamlNode* step_down(YamlNode& node, const std::string& part, const Location& loc
   }
   for (YamlNode& child : node.children)
     if (child.key == part) return &child;
+  if (const std::string problem = name_problem(part, false); !problem.empty())
+    return problems.add(location, node.path, problem + "; write another"), nullptr;
   YamlNode& made = node.children.emplace_back();
   made.key = part;
   made.path = node.path.empty() ? path_part(part) : node.path + "." + path_part(part);
@@ -189,8 +210,12 @@ void YamlNode::move_to(const std::string& new_path)
 
 YamlNode parse_yaml(const std::string& text, const std::string& file, Problems& problems)
 {
+  YamlNode nothing;
+  nothing.location = {file, 1, 1};
   try
   {
+    if (const auto end = end_of_what_is_read(text))
+      return problems.add({file, end->line + 1, end->column + 1}, "", too_large), nothing;
     // All of them: what follows "---" would otherwise be passed over in silence.
     const std::vector<YAML::Node> documents = YAML::LoadAll(text);
     if (documents.size() > 1) problems.add({file, 0, 0}, "", "holds several YAML documents; leave one");
@@ -203,8 +228,6 @@ YamlNode parse_yaml(const std::string& text, const std::string& file, Problems& 
                                   : Location{file, error.mark.line + 1, error.mark.column + 1};
     problems.add(location, "", "is not YAML: " + error.msg);
   }
-  YamlNode nothing;
-  nothing.location = {file, 1, 1};
   return nothing;
 }
 

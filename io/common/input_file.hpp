@@ -9,8 +9,8 @@ namespace mpm
 {
 /// Greatest sizes in bytes; nothing that a person or an archive writes comes near them.
 inline constexpr std::size_t most_of_case = std::size_t(16) << 20;
-inline constexpr std::size_t most_of_surface = std::size_t(256) << 20;
-inline constexpr std::size_t most_of_record = std::size_t(1) << 30;
+inline constexpr std::size_t most_of_surface = std::size_t(16) << 20;
+inline constexpr std::size_t most_of_record = std::size_t(256) << 20;
 
 /// What a file holds, or why it is not read.
 struct InputText

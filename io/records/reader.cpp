@@ -18,7 +18,9 @@ Record finished(const RecordSource& source, std::string format, const RecordUnit
                 std::vector<double> values)
 {
   if (values.size() < 2) refuse(source, "holds " + std::to_string(values.size()) + " values; not a record");
-  for (double& value : values) value *= unit.si;
+  for (double& value : values)
+    if (!std::isfinite(value *= unit.si))
+      refuse(source, "holds a value that is beyond the numbers of the machine in SI; mend it or the unit");
   Record record{source.file, std::move(format), unit.name, dt, unit.quantity, std::move(values), {}};
   if (dt > 0.2 || dt < 5e-4)
     record.warnings.push_back(source.file + ": its time step is " + number(dt) + " s, which carries up to " +
@@ -35,6 +37,8 @@ void refuse_component(const RecordSource& source)
 
 namespace
 {
+constexpr std::ptrdiff_t most_lines = 20'000'000; // a hundred bytes of memory each
+
 /// Digits behind the point, and of the exponent.
 std::pair<int, int> digits_of(std::string_view token)
 {
@@ -94,6 +98,9 @@ Record parse_record(std::string_view text, const RecordSource& source)
   }
   if (!std::isnan(source.dt) && !(source.dt > 0 && std::isfinite(source.dt)))
     refuse(source, "dt is " + number(source.dt) + " s; give a positive one");
+  if (std::ranges::count_if(text, [](char c) { return c == '\n' || c == '\r'; }) > most_lines)
+    refuse(source,
+           "has more than " + std::to_string(most_lines / 1'000'000) + " million lines; cut or resample it");
   const std::vector<Line> lines = lines_of(text), whole = whole_lines_of(text);
   if (lines.empty()) refuse(source, "is empty; fetch it again");
   // Before anything else: a file that was cut off may still be a good record of another length.

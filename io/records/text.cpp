@@ -4,6 +4,7 @@
 #include "io/records/text.hpp"
 
 #include "io/common/error.hpp"
+#include "io/common/printable.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -63,12 +64,13 @@ std::size_t find_word(std::string_view text, std::string_view word, std::size_t 
 
 void refuse(const RecordSource& source, const std::string& what)
 {
-  throw Error(exit_code::bad_input, source.file + ": " + what);
+  throw Error(exit_code::bad_input, printable(source.file + ": " + what, "\t"));
 }
 
 void refuse(const RecordSource& source, const Line& line, const std::string& what)
 {
-  throw Error(exit_code::bad_input, source.file + ":" + std::to_string(line.number) + ": " + what);
+  throw Error(exit_code::bad_input,
+              printable(source.file + ":" + std::to_string(line.number) + ": " + what, "\t"));
 }
 
 std::string shown(std::string_view text)

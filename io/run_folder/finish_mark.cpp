@@ -4,12 +4,11 @@
 
 #include "io/run_folder/finish_mark.hpp"
 
+#include "io/common/input_file.hpp"
 #include "io/results/files.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-
-#include <fstream>
 
 namespace mpm
 {
@@ -28,7 +27,7 @@ bool is_sealed(const fs::path& file)
 std::string difference(const fs::path& file, const nlohmann::json& entry)
 {
   const std::string name = file.filename();
-  if (!fs::is_regular_file(file)) return name + " is missing";
+  if (!fs::is_regular_file(fs::symlink_status(file))) return name + " is missing";
   if (fs::file_size(file) != entry.at("bytes").get<std::uintmax_t>() ||
       sha256_file(file) != entry.at("sha256").get<std::string>())
     return name + " is not as it was when the run finished";
@@ -69,11 +68,13 @@ std::string broken_mark(const fs::path& folder)
 {
   try
   {
-    std::ifstream file(folder / finish_mark);
-    const nlohmann::json mark = nlohmann::json::parse(file);
+    const nlohmann::json mark = nlohmann::json::parse(read_input(folder / finish_mark, most_of_case).text);
     if (mark.at("schema") != schema || mark.at("files").empty()) return "finished.json is another program's";
     for (const auto& [name, entry] : mark.at("files").items())
-      if (const std::string what = difference(folder / name, entry); !what.empty()) return what;
+      if (name.find('/') != name.npos)
+        return "finished.json names a file of another folder, " + name;
+      else if (const std::string what = difference(folder / name, entry); !what.empty())
+        return what;
     return {};
   }
   catch (const nlohmann::json::exception&)

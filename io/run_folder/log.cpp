@@ -4,6 +4,7 @@
 
 #include "io/run_folder/log.hpp"
 #include "io/common/error.hpp"
+#include "io/common/printable.hpp"
 
 #include <spdlog/logger.h>
 #include <spdlog/sinks/basic_file_sink.h>
@@ -103,8 +104,9 @@ void Log::open(const std::filesystem::path& file)
   kept_.clear();
 }
 
-void Log::say(Level level, const std::string& text)
+void Log::say(Level level, const std::string& said)
 {
+  const std::string text = printable(said);
   const char* prefix = level == Level::warning ? "warning: " : level == Level::error ? "error: " : "";
   const bool known = std::find(warnings_.begin(), warnings_.end(), text) != warnings_.end();
   if (level == Level::warning && !known) warnings_.push_back(text);

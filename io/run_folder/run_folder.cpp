@@ -1,4 +1,6 @@
 #include "io/run_folder/run_folder.hpp"
+
+#include "io/common/input_file.hpp"
 #include "io/results/files.hpp"
 #include "io/run_folder/finish_mark.hpp"
 
@@ -96,13 +98,21 @@ void refuse_link(const fs::path& file)
           file.filename().string() + " is no plain file of its own; remove it or choose another --out");
 }
 
+/// All else that stands under our names is a file: a link may lead out of the folder, and a pipe is waited
+/// for.
+void refuse_other_than_files(const fs::path& folder)
+{
+  for (const auto& file : files_in(folder, is_output))
+    if (!fs::is_regular_file(fs::symlink_status(file)))
+      taken(folder, file.filename().string() + " is no plain file; remove it or choose another --out");
+}
+
 RunFolder::Identity read_identity(const fs::path& path)
 {
   try
   {
-    std::ifstream file(path);
     RunFolder::Identity identity;
-    const auto stored = nlohmann::ordered_json::parse(file);
+    const auto stored = nlohmann::ordered_json::parse(read_input(path, most_of_case).text);
     if (const std::string found = stored.value(format_key, "none"); found != format)
       taken(path.parent_path(),
             fmt::format(
@@ -178,6 +188,7 @@ RunFolder::RunFolder(fs::path path, const Identity& identity, bool fresh)
     lock();
     refuse_link(path_ / "log.txt");
     if (fresh) remove_results();
+    refuse_other_than_files(path_);
     check_identity();
     // Half-written files of a run that was killed: only now is it certain that they are nobody else's.
     for (const auto& file : files_in(path_, is_debris)) fs::remove(file);

@@ -3,10 +3,9 @@
 #include "io/case/key_table.hpp"
 #include "io/case/profiles.hpp"
 #include "io/case/yaml_tree.hpp"
+#include "io/common/input_file.hpp"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 
 namespace mpm
 {
@@ -45,9 +44,8 @@ YamlNode case_among(const std::vector<std::string>& words)
   for (const std::string& word : words)
     if (word.ends_with(".yaml") || word.ends_with(".yml"))
     {
-      std::ifstream file(word, std::ios::binary);
       Problems ignored;
-      return parse_yaml({std::istreambuf_iterator<char>(file), {}}, word, ignored);
+      return parse_yaml(read_input(word, most_of_case).text, word, ignored);
     }
   return {};
 }

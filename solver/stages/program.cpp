@@ -1,5 +1,6 @@
 #include "solver/stages/program.hpp"
 
+#include "io/common/printable.hpp"
 #include "io/common/signals.hpp"
 #include "solver/mpm/domain.hpp"
 #include "solver/mpm/parallel.hpp"
@@ -57,7 +58,7 @@ try
 }
 catch (const Error& error)
 {
-  std::cerr << error.what() << '\n';
+  std::cerr << printable(error.what()) << '\n';
   return error.code;
 }
 catch (const std::bad_alloc&)
@@ -69,7 +70,7 @@ catch (const std::bad_alloc&)
 }
 catch (const std::exception& error)
 {
-  std::cerr << name << ": " << error.what()
+  std::cerr << name << ": " << printable(error.what())
             << " (a bug of ours: please report it with the command and the case)\n";
   return exit_code::bug;
 }

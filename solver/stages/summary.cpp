@@ -58,7 +58,9 @@ void Summary::finish(int exit, const nlohmann::json& more, std::vector<std::stri
   summary.update(session_.facts);
   summary.update(more);
   const RunFolder& folder = *session_.folder;
-  write_text_atomically(folder / "summary.json", summary.dump(2) + "\n");
+  // Paths may be of any bytes, and JSON is UTF-8.
+  write_text_atomically(folder / "summary.json",
+                        summary.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
   if (exit == exit_code::done)
   {
     // Last of all, since it says that all other files are whole; checkpoints are then no longer needed.

@@ -184,6 +184,15 @@ TEST_CASE("a record that is missing or a folder is told from one that is bad", "
   CHECK(failure_of([] { read_record(source_of(SOURCE_DIR)); }).code == exit_code::input_missing);
 }
 
+TEST_CASE("values that are no numbers in SI are refused, whatever the format", "[io]")
+{
+  // Of a finite number in a unit that is larger than one of SI.
+  for (const char* text : {"1e308\n-1\n1\n", "-1.7e308\n0\n", "0\n2e307\n"})
+    CHECK_THAT(refusal(text, {.file = "a.txt", .dt = 0.01, .unit = "g"}),
+               Catch::Contains("beyond the numbers"));
+  CHECK(parse_record("1e307\n-1\n", {.file = "a.txt", .dt = 0.01, .unit = "g"}).values.size() == 2);
+}
+
 TEST_CASE("the synthetic motion is at rest at its end, with the peak and duration it was made for", "[io]")
 {
   const auto record = read_record(source_of(SOURCE_DIR "/cases/motions/synthetic.AT2"));

@@ -66,13 +66,14 @@ TEST_CASE("names with dots, empty lists and files of points read back too", "[io
 {
   const TemporaryFolder folder;
   put(folder / "line.csv", "0, 10\n20, 10.5\n");
-  put(folder / "case.yaml",
-      replaced(small, "{points: [[0 m, 10 m]]}", "{file: line.csv}") +
-          "output: {frames: {fields: []}, gauges: {points: {\"top.1 [a]\": [1 m, 9 m]}}}\n");
+  put(folder / "case.yaml", replaced(small, "{points: [[0 m, 10 m]]}", "{file: line.csv}") +
+                                "output: {frames: {fields: []}, gauges: {points: {\"top.1 [a]\": [1 m, 9 m], "
+                                "\"[b]\": [2 m, 9 m]}}}\n");
   const Case case_file = load_case(folder / "case.yaml");
   const Case again = read_back(case_file);
   CHECK(difference(again, case_file) == "");
-  REQUIRE(again.output.gauges.points.size() == 1);
+  REQUIRE(again.output.gauges.points.size() == 2);
+  CHECK(again.output.gauges.points[1].name == "[b]");
   CHECK(again.output.gauges.points[0].name == "top.1 [a]");
   CHECK(again.output.frames.fields.empty());
   CHECK(again.surfaces[0].height(10) == 10.25);

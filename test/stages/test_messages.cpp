@@ -1,10 +1,13 @@
 // What the programs tell: where, and about what.
 
+#include "io/common/printable.hpp"
 #include "solver/stages/slide_report.hpp"
 #include "test/stages/programs.hpp"
 #include "test/stages/results.hpp"
 
 #include <nlohmann/json.hpp>
+
+#include <set>
 
 using namespace mpm;
 using namespace mpm::test;
@@ -99,4 +102,39 @@ TEST_CASE("a slide is told by area, centre of mass, toe and trigger", "[stages]"
       "down); toe at x = 40.0 m, advanced by 2.50 m; triggered at t = 6.79 s");
   slide["trigger_time"] = nullptr;
   CHECK(slide_text(slide, 1) == text.substr(0, text.rfind(';')));
+}
+
+TEST_CASE("names of a case and of its files are data: they lead nowhere, and a terminal does not obey them",
+          "[stages]")
+{
+  const Bench bench;
+  std::string text = replaced(cut, "name: cut", "name: ../../evil");
+  for (const auto& [from, to] :
+       {std::pair{"crest:", "'../../crest':"}, std::pair{"clay", "'..'"}, std::pair{"clay", "'..'"},
+        std::pair{"rockhead:", "'../rockhead':"}, std::pair{"above: rockhead", "above: '../rockhead'"},
+        std::pair{"below: rockhead", "below: '../rockhead'"}})
+    text = replaced(text, from, to);
+  // A path of any bytes: a sequence that clears a terminal, Latin-1.
+  const std::string name = "\x1b[2J\xe9.txt";
+  put(bench / "case.yaml", text);
+  const Arguments more{"--set", "seismic.duration=0.2 s"};
+  const Ending first = bench.run_static("static", more);
+  INFO(first.said);
+  REQUIRE(first.code == 0);
+  put(bench / name, sine(12, 2));
+  Arguments record{"--motion", bench.path(name), "--record-dt", "0.01", "--record-unit", "m/s2"};
+  record.insert(record.end(), more.begin(), more.end());
+  const Ending second = bench.run_seismic("seismic", record);
+  INFO(second.said);
+  REQUIRE(second.code == 0);
+  for (const std::string& said : {first.said, second.said, contents(bench / "seismic/log.txt")})
+  {
+    CHECK(printable(said) == said);
+    CHECK_THAT(said, Contains("stage"));
+  }
+  CHECK_THAT(contents(bench / "seismic/log.txt"), Contains("\\x1b[2J\\xe9.txt"));
+  CHECK(nlohmann::json::parse(contents(bench / "seismic/summary.json")).at("exit") == 0);
+  std::set<std::string> there;
+  for (const auto& entry : fs::directory_iterator(bench / ".")) there.insert(entry.path().filename());
+  CHECK(there == std::set<std::string>{"case.yaml", "shake.txt", "said.txt", "static", "seismic", name});
 }

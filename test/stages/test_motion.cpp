@@ -168,3 +168,22 @@ TEST_CASE("a motion that is ended is reported as it fades", "[stages]")
   const Ending late = b.run("late", {"--set", "seismic.motion.end=0.7 s"});
   CHECK_THAT(late.said, Contains("seismic.motion.end: 0.7 s is after the end of the run at 0.6 s"));
 }
+
+TEST_CASE("twice a faint motion is twice the answer of elastic ground", "[stages]")
+{
+  const Block b;
+  // Particles move by 1e-7 of a cell, and by as much the answer may differ; it is 3e-8.
+  REQUIRE(b.run("once", {"--scale", "1e-6"}).code == 0);
+  REQUIRE(b.run("twice", {"--scale", "2e-6"}).code == 0);
+  for (const char* series : {"gauges/displacement", "gauges/velocity"})
+  {
+    const auto once = open_complete(b / "once/history.h5").read_doubles(series),
+               twice = open_complete(b / "twice/history.h5").read_doubles(series);
+    REQUIRE(once.size() == twice.size());
+    const double peak = greatest(twice, twice.size());
+    CHECK(peak > 0);
+    double apart = 0;
+    for (std::size_t k = 0; k < once.size(); ++k) apart = std::max(apart, std::abs(twice[k] - 2 * once[k]));
+    CHECK(apart < 1e-7 * peak);
+  }
+}
