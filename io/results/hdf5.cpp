@@ -48,21 +48,31 @@ Group Group::create_group(const std::string& name)
 
 Group Group::open_group(const std::string& name) const
 {
-  if (!exists(name)) read_error(where(name), "it is missing");
+  if (!exists(name)) read_error(where(name), "it is missing, or a link");
   Handle group{readable(H5Gopen2(group_.id(), name.c_str(), H5P_DEFAULT), where(name)), H5Gclose};
   return {std::move(group), file_, path_ + "/" + name};
 }
 
 bool Group::exists(const std::string& name) const
 {
-  // H5Lexists fails, instead of saying no, when a group on the way is missing.
-  for (std::size_t end = name.find('/', 1); end != std::string::npos; end = name.find('/', end + 1))
-    if (H5Lexists(group_.id(), name.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
-  return H5Lexists(group_.id(), name.c_str(), H5P_DEFAULT) > 0;
+  if (name == ".") return true;
+  // H5Lexists fails, instead of saying no, when a group on the way is missing. We make hard links alone;
+  // others may lead to another file.
+  for (std::size_t end = 0; end != std::string::npos;)
+  {
+    end = name.find('/', end + 1);
+    const std::string path = name.substr(0, end);
+    H5L_info_t link{};
+    if (H5Lexists(group_.id(), path.c_str(), H5P_DEFAULT) <= 0 ||
+        H5Lget_info(group_.id(), path.c_str(), &link, H5P_DEFAULT) < 0 || link.type != H5L_TYPE_HARD)
+      return false;
+  }
+  return true;
 }
 
 std::vector<std::string> Group::children(const std::string& group) const
 {
+  if (!exists(group)) read_error(where(group), "it is missing, or a link");
   std::vector<std::string> names;
   // A C function is called for each name; it may not throw.
   const auto take = [](hid_t, const char* name, const H5L_info_t*, void* out) -> herr_t
@@ -78,8 +88,12 @@ std::vector<std::string> Group::children(const std::string& group) const
 
 Handle Group::dataset(const std::string& name) const
 {
-  if (!exists(name)) read_error(where(name), "it is missing");
-  return {readable(H5Dopen2(group_.id(), name.c_str(), H5P_DEFAULT), where(name)), H5Dclose};
+  if (!exists(name)) read_error(where(name), "it is missing, or a link");
+  Handle data{readable(H5Dopen2(group_.id(), name.c_str(), H5P_DEFAULT), where(name)), H5Dclose};
+  const Handle layout{readable(H5Dget_create_plist(data.id()), where(name)), H5Pclose};
+  if (H5Pget_external_count(layout.id()) > 0 || H5Pget_layout(layout.id()) == H5D_VIRTUAL)
+    read_error(where(name), "its values are said to stand in another file");
+  return data;
 }
 
 // A second name for the same data: it costs nothing, and reading either is the same.

@@ -5,25 +5,13 @@
 
 #include <cstring>
 #include <fmt/format.h>
+#include <memory>
+#include <new>
 
 namespace mpm::h5
 {
 namespace
 {
-/// A damaged file may claim any size.
-template <class T>
-std::vector<T> room_for(hssize_t count, const std::string& where)
-{
-  try
-  {
-    return std::vector<T>(std::size_t(count));
-  }
-  catch (const std::exception&)
-  {
-    read_error(where, fmt::format("it claims {} values", count));
-  }
-}
-
 /// Dataset or attribute, seen alike.
 struct Stored
 {
@@ -39,11 +27,53 @@ struct Stored
   {
     return {readable(is_attribute ? H5Aget_space(id) : H5Dget_space(id), where), H5Sclose};
   }
-  void read(hid_t memory, void* out) const
+  /// How many values there are, each of `size` bytes at least. A file may claim any number, and memory is
+  /// taken only for what it has room for: a byte for a byte, or 1032 for one where it is packed by deflate.
+  std::size_t count(std::size_t size = 1) const
   {
-    readable(is_attribute ? H5Aread(id, memory, out)
-                          : H5Dread(id, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, out),
+    const hssize_t claimed = H5Sget_simple_extent_npoints(space().id());
+    const double most = double(file_size()) * (is_packed() ? 1032 : 1);
+    if (claimed < 0 || double(claimed) * double(size) > most)
+      read_error(where, fmt::format("it claims {} values, more than the file has room for", claimed));
+    return std::size_t(claimed);
+  }
+  hsize_t file_size() const
+  {
+    const Handle file{readable(H5Iget_file_id(id), where), H5Fclose};
+    hsize_t size = 0;
+    readable(H5Fget_filesize(file.id(), &size), where);
+    return size;
+  }
+  bool is_packed() const
+  {
+    if (is_attribute) return false;
+    const Handle layout{readable(H5Dget_create_plist(id), where), H5Pclose};
+    unsigned flags = 0;
+    std::size_t parameters = 0;
+    return H5Pget_filter_by_id2(layout.id(), H5Z_FILTER_DEFLATE, &flags, &parameters, nullptr, 0, nullptr,
+                                nullptr) >= 0;
+  }
+  void read(hid_t memory, void* out, hid_t transfer = H5P_DEFAULT) const
+  {
+    readable(is_attribute ? H5Aread(id, memory, out) : H5Dread(id, memory, H5S_ALL, H5S_ALL, transfer, out),
              where);
+  }
+};
+
+/// Where HDF5 puts the texts of a dataset: no more of them than the file has room for, since many may be one
+/// and the same in it.
+struct TextMemory
+{
+  std::size_t left;
+  std::vector<std::unique_ptr<char[]>> texts;
+
+  /// Called from C: null where there is no memory, which ends the reading.
+  static void* take(std::size_t size, void* self)
+  {
+    auto& memory = *static_cast<TextMemory*>(self);
+    if (size > memory.left) return nullptr;
+    memory.left -= size;
+    return memory.texts.emplace_back(new (std::nothrow) char[size]).get();
   }
 };
 
@@ -55,7 +85,7 @@ std::vector<T> numbers(const Stored& stored, hid_t memory, bool fractions_too)
   const H5T_class_t kind = H5Tget_class(stored.type().id());
   if (kind != H5T_INTEGER && !(fractions_too && kind == H5T_FLOAT))
     read_error(stored.where, fractions_too ? "it holds no numbers" : "it holds no whole numbers");
-  auto values = room_for<T>(H5Sget_simple_extent_npoints(stored.space().id()), stored.where);
+  std::vector<T> values(stored.count());
   if (!values.empty()) stored.read(memory, values.data());
   return values;
 }
@@ -66,24 +96,29 @@ std::vector<std::string> strings(const Stored& stored)
   const Handle type = stored.type();
   if (H5Tget_class(type.id()) != H5T_STRING) read_error(stored.where, "it holds no text");
   const Handle space = stored.space();
-  const hssize_t count = H5Sget_simple_extent_npoints(space.id());
   std::vector<std::string> texts;
-  if (count == 0) return texts;
   if (H5Tis_variable_str(type.id()) > 0)
   {
-    auto pointers = room_for<char*>(count, stored.where);
-    stored.read(type.id(), pointers.data());
+    std::vector<char*> pointers(stored.count());
+    if (pointers.empty()) return texts;
+    if (stored.is_attribute && pointers.size() > 1)
+      read_error(stored.where, "several texts where one belongs");
+    TextMemory memory{stored.file_size(), {}};
+    const Handle transfer = properties(H5P_DATASET_XFER);
+    H5Pset_vlen_mem_manager(
+        transfer.id(), TextMemory::take, &memory, [](void*, void*) {}, nullptr);
+    stored.read(type.id(), pointers.data(), transfer.id());
     for (const char* text : pointers) texts.emplace_back(text ? text : "");
-    // HDF5 has allocated the texts; they are copied and given back.
-    H5Dvlen_reclaim(type.id(), space.id(), H5P_DEFAULT, pointers.data());
+    // HDF5 has allocated the text of an attribute itself.
+    if (stored.is_attribute) H5Dvlen_reclaim(type.id(), space.id(), H5P_DEFAULT, pointers.data());
     return texts;
   }
-  const std::size_t length = H5Tget_size(type.id());
-  auto bytes = room_for<char>(count * hssize_t(length), stored.where);
-  stored.read(type.id(), bytes.data());
-  for (hssize_t i = 0; i < count; ++i)
+  const std::size_t length = H5Tget_size(type.id()), count = stored.count(length);
+  std::vector<char> bytes(count * length);
+  if (!bytes.empty()) stored.read(type.id(), bytes.data());
+  for (std::size_t i = 0; i < count; ++i)
   {
-    const char* text = bytes.data() + std::size_t(i) * length;
+    const char* text = bytes.data() + i * length;
     texts.emplace_back(text, strnlen(text, length));
   }
   return texts;
@@ -139,7 +174,7 @@ bool Group::has_attribute(const std::string& name, const std::string& of) const
 Handle Group::open_attribute(const std::string& name, const std::string& of) const
 {
   const std::string path = where(of) + "@" + name;
-  if (!has_attribute(name, of)) read_error(path, "it is missing");
+  if (!exists(of) || !has_attribute(name, of)) read_error(path, "it is missing");
   return {readable(H5Aopen_by_name(group_.id(), of.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), path),
           H5Aclose};
 }
