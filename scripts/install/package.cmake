@@ -27,7 +27,7 @@ set(CPACK_DEBIAN_SEISMPM_PACKAGE_NAME seismpm)
 set(CPACK_DEBIAN_SEISMPM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_SEISMPM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_SEISMPM_PACKAGE_RECOMMENDS "python3-numpy, python3-h5py, python3-scipy, python3-matplotlib, python3-yaml")
-set(CPACK_DEBIAN_SEISMPM_PACKAGE_SUGGESTS "bash-completion, ffmpeg, paraview, slurm-client")
+set(CPACK_DEBIAN_SEISMPM_PACKAGE_SUGGESTS "bash-completion, ffmpeg, paraview, python3-ezdxf, slurm-client")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libseismpm-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
