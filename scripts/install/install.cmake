@@ -59,23 +59,29 @@ install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)
 install(DIRECTORY boundaries io materials scripts solver test DESTINATION ${CMAKE_INSTALL_DOCDIR} FILES_MATCHING PATTERN *.md PATTERN *.png)
 install_link(${CMAKE_INSTALL_DOCDIR} cases ${data}/cases)
 
-# Man pages are what the programs say of themselves.
+# Man pages are what the programs and the commands of seismpm say of themselves: NAME.1, and seismpm-COMMAND.1.
 set(documented ${programs} seismpm)
 set(commands ${PROJECT_BINARY_DIR}/scripts)
 add_custom_command(OUTPUT ${commands}/seismpm COMMAND ${CMAKE_COMMAND} -E make_directory ${commands}
   COMMAND ${CMAKE_COMMAND} -E copy ${scripts} ${commands} DEPENDS ${scripts} VERBATIM)
-foreach(program IN LISTS documented)
-  set(file ${commands}/seismpm) # which tells the commands beside it
-  if(program IN_LIST programs)
-    set(file $<TARGET_FILE:${program}>)
-  endif()
-  set(page ${PROJECT_BINARY_DIR}/man/${program}.1)
+function(man_page name program command)
+  set(page ${PROJECT_BINARY_DIR}/man/${name}.1)
   add_custom_command(OUTPUT ${page}
-    COMMAND ${CMAKE_COMMAND} -DPROGRAM=${file} -DPAGE=${page} -DVERSION=${PROJECT_VERSION} -DCODES=${PROJECT_SOURCE_DIR}/io/run_folder/README.md
-      -P ${PROJECT_SOURCE_DIR}/scripts/install/man_page.cmake
-    DEPENDS ${programs} ${commands}/seismpm ${PROJECT_SOURCE_DIR}/scripts/install/man_page.cmake io/run_folder/README.md
+    COMMAND ${CMAKE_COMMAND} -DPROGRAM=${program} -DCOMMAND=${command} -DPAGE=${page} -DVERSION=${PROJECT_VERSION}
+      -DCODES=${PROJECT_SOURCE_DIR}/io/run_folder/README.md -P ${PROJECT_SOURCE_DIR}/scripts/install/man_page.cmake
+    DEPENDS ${ARGN} ${commands}/seismpm ${PROJECT_SOURCE_DIR}/scripts/install/man_page.cmake io/run_folder/README.md
     VERBATIM)
-  list(APPEND pages ${page})
+  set(pages ${pages} ${page} PARENT_SCOPE)
+endfunction()
+foreach(program IN LISTS programs)
+  man_page(${program} $<TARGET_FILE:${program}> "" ${program})
+endforeach()
+man_page(seismpm ${commands}/seismpm "") # which tells the commands beside it
+foreach(script IN LISTS scripts)
+  if(script MATCHES "/([a-z-]+)$" AND NOT script MATCHES "/(seismpm|find-[a-z]+)$")
+    string(REGEX REPLACE ".*/" "" command ${script})
+    man_page(seismpm-${command} ${commands}/seismpm ${command})
+  endif()
 endforeach()
 add_custom_target(man-pages ALL DEPENDS ${pages})
 install(FILES ${pages} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)

@@ -111,13 +111,19 @@ def ladder(installed):
 
 
 def pages(installed):
-    """Every program has a man page with all its options and the exit codes, and no page's link to another is broken."""
-    good = []
-    for program in PROGRAMS:
-        page = (installed.prefix / "share" / "man" / "man1" / f"{program}.1").read_text().replace("\\", "")
-        _, said, _ = installed.run(program, "--help")
+    """Every program and every command has a man page with its name, all its options and the exit codes, and no page's link to another is broken."""
+    man, good = installed.prefix / "share" / "man" / "man1", []
+    commands = re.findall(r"^  ([a-z][a-z-]+)  +\S", installed.run("seismpm", "--help")[1], re.M)
+    documented = {program: (program,) for program in PROGRAMS} | {f"seismpm-{name}": ("seismpm", name) for name in commands}
+    for name, words in documented.items():
+        path = man / f"{name}.1"
+        page = path.read_text().replace("\\", "") if path.exists() else ""
+        _, said, _ = installed.run(*words, "--help")
         options = set(re.findall(r"--[a-z][a-z-]+", said))
-        good.append(all(option in page for option in options) and "diverged" in page and ".SH NAME" in page)
+        good.append(all(option in page for option in options) and "diverged" in page and re.search(rf"^{name} - \S", page, re.M) is not None)
+        if not good[-1]:
+            print(f"{path}: {'is not there' if not page else 'has no name, no exit codes or not all options'}")
+    good += [len(commands) > 10, {path.stem for path in man.iterdir()} == set(documented)]
     doc = installed.prefix / "share" / "doc" / "seismpm"
     links = [(page, link) for page in doc.rglob("*.md") for link in re.findall(r"\]\(([^)#:]+\.(?:md|png|yaml))[)#]", page.read_text())]
     broken = [(page, link) for page, link in links if not (page.parent / link).exists()]
