@@ -1,8 +1,9 @@
-"""Makes a case from a drawing of the section: DXF, tables of points, a ground profile; materials by the names of the layers.
+"""Makes a case from a drawing of the section: DXF, tables of points, a ground profile, a picture; materials by the names of the layers.
 
     scripts/case-from SECTION.dxf --materials MATERIALS.yaml --bottom -10 --out DIR
     scripts/case-from clay=GROUND.csv rock=ROCKHEAD.csv --like CASE.yaml --bottom -10 --out DIR
     scripts/case-from clay=PROFILE.txt --rock rock --depth 15 --like CASE.yaml --bottom -30 --level 20 --out DIR
+    scripts/case-from SECTION.png --pixel 0.1 --colour clay=#c08040 --colour rock=#808080 --materials MATERIALS.yaml --out DIR
 
 An open line on a layer is the upper boundary of the material of that name, from side to side or to where it ends on another
 line, which it follows from there; a closed outline is all of a material, and goes before lines. Tables have the columns x, y and
@@ -11,7 +12,7 @@ DIR/case.yaml, surfaces of many points as DIR/NAME.csv, and DIR/section.png: the
 """
 import argparse
 import difflib
-import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -19,11 +20,12 @@ from pathlib import Path
 
 import h5py
 import numpy as np
-import yaml
 
 import case_text
 import drawing
+import raster
 import section
+from named_materials import known_materials, material_of
 from options import Parser
 from plot_common import text
 from programs import PROGRAMS
@@ -32,6 +34,7 @@ from settings import UNITS as SI
 from whole_file import write_whole
 
 PICTURE = "section.png"
+RASTERS = (".png", ".jpg", ".jpeg", ".gif", ".bmp", ".tif", ".tiff", ".webp")
 TALL, TALLEST, LOW, LOWEST = 1000.0, 5000.0, 1.0, 0.1  # m: sections that are warned of, and refused
 
 
@@ -54,10 +57,17 @@ def axes(words):
     return tuple(("xyz".index(name), -1.0 if part.startswith("-") else 1.0) for name, part in zip(names, parts))
 
 
+def colour(words):
+    """Red, green and blue of #rrggbb."""
+    if not re.fullmatch(r"#[0-9a-fA-F]{6}", words):
+        raise argparse.ArgumentTypeError(f"'{words}' is no colour, such as #c08040")
+    return tuple(bytes.fromhex(words[1:]))
+
+
 def parse_arguments(given=None):
     """The command line."""
     parser = Parser(prog="case-from", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("drawings", nargs="+", metavar="[NAME=]FILE", help="DXF, or tables of x and y")
+    parser.add_argument("drawings", nargs="+", metavar="[NAME=]FILE", help="DXF, tables of x and y, or a picture")
     parser.add_argument("--out", type=Path, required=True, metavar="DIR")
     parser.add_argument("--force", action="store_true", help="replace files that are there")
     names = parser.add_argument_group("materials")
@@ -65,7 +75,10 @@ def parse_arguments(given=None):
     names.add_argument("--like", type=Path, metavar="CASE", help="a case whose materials, motion and settings are taken")
     names.add_argument("--layer", action="append", default=[], metavar="LAYER=MATERIAL", help="the material of a layer of another name")
     names.add_argument("--ignore", action="append", default=[], metavar="LAYER", help="a layer that draws no ground")
+    names.add_argument("--colour", action="append", default=[], metavar="MATERIAL=#RRGGBB", help="the material of a colour of a picture")
+    names.add_argument("--air", type=colour, default="#ffffff", metavar="#RRGGBB", help="the colour of no ground; default: white")
     place = parser.add_argument_group("coordinates")
+    place.add_argument("--pixel", type=float, metavar="P", help="width and height of a pixel of a picture")
     place.add_argument("--units", default="", choices=drawing.UNITS, metavar="UNIT", help="of the drawing: " + ", ".join(drawing.UNITS))
     place.add_argument("--axes", type=axes, default=axes("x,y"), metavar="A,B", help="what becomes x and y: x,z, or --axes=-x,y for a mirror image")
     place.add_argument("--scale", type=pair((1, 2), "one factor, or one of x and one of y"), default=(1.0,), metavar="F[,FY]", help="factors on x and y")
@@ -93,44 +106,10 @@ def parse_arguments(given=None):
                           (not wish.sides or wish.sides[0] < wish.sides[1], "--sides LEFT,RIGHT: the right one must be greater"),
                           (0 not in wish.scale, "--scale must not be 0"), (wish.level >= 0, "--level must not be negative"),
                           (wish.tolerance >= 0, "--tolerance must not be negative"), (wish.cell is None or wish.cell > 0, "--cell must be above 0"),
-                          (wish.depth is None or wish.depth > 0, "--depth must be above 0")):
+                          (wish.depth is None or wish.depth > 0, "--depth must be above 0"), (wish.pixel is None or wish.pixel > 0, "--pixel must be above 0")):
         if not good:
             parser.error(message)
     return wish
-
-
-def read_yaml(path):
-    """A file of YAML, a map."""
-    try:
-        found = yaml.safe_load(path.read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError) as reason:
-        raise Refused(66, f"{path}: cannot be read: {reason}") from None
-    except yaml.YAMLError as reason:
-        raise Refused(65, f"{path}: is no YAML: {' '.join(str(reason).split())}") from None
-    if not isinstance(found, dict):
-        raise Refused(65, f"{path}: must be a map of materials, or a case")
-    return found
-
-
-def known_materials(wish):
-    """Materials by name, and the case that the new one is to be like, its records found from where the new one will stand."""
-    like = read_yaml(wish.like) if wish.like else {}
-    own = read_yaml(wish.materials) if wish.materials else {}
-    materials = {**(like.get("materials") or {}), **(own.get("materials") or own)}
-    if not materials or not all(isinstance(value, dict) for value in materials.values()):
-        raise Refused(65, f"{wish.materials or wish.like}: holds no materials, as 'clay: {{model: von_mises, ...}}'")
-    motion = (like.get("seismic") or {}).get("motion") or {}
-    for record in (motion.get(direction) for direction in ("horizontal", "vertical")):
-        if isinstance(record, dict) and "file" in record:
-            record["file"] = os.path.relpath(wish.like.parent / record["file"], wish.out)
-    return {str(name): value for name, value in materials.items()}, like
-
-
-def material_of(name, materials, renamed):
-    """The material of a layer: that of --layer, or of the same name but for upper and lower case."""
-    wanted = renamed.get(name.casefold(), name)
-    found = [known for known in materials if known == wanted] or [known for known in materials if known.casefold() == wanted.casefold()]
-    return found[0] if len(found) == 1 else None
 
 
 def files_named(wish):
@@ -206,8 +185,32 @@ def refuse_to_replace(wish, names):
         raise Refused(73, f"{wish.out / there[0]}: is there already; give another --out, or --force to replace it")
 
 
+def section_of_picture(path, wish, materials, notes):
+    """The section of a picture in colours."""
+    if len(wish.drawings) > 1 or wish.rock or wish.extend or wish.axes != axes("x,y") or wish.units:
+        raise Refused(64, f"{path}: a picture stands alone, and takes no --rock, --extend, --axes or --units")
+    if not wish.colour or not wish.pixel:
+        raise Refused(64, f"{path}: a picture wants --pixel P, in m, and a --colour MATERIAL=#rrggbb for each material; its colours are {raster.colours_of(path)}")
+    legend = {}
+    for name, value in map(setting, wish.colour):
+        if (material := material_of(name, materials, {})) is None:
+            raise Refused(64, f"--colour {name}: there is no such material; there are: {', '.join(materials)}")
+        try:
+            legend[material] = colour(value)
+        except argparse.ArgumentTypeError as reason:
+            raise Refused(64, f"--colour {name}: {reason}") from None
+    return raster.build(path, legend, wish, notes)
+
+
 def section_of(wish, materials, notes):
     """The section of the command line."""
+    pictures = [path for path, _ in files_named(wish) if path.suffix.lower() in RASTERS]
+    if pictures:
+        found = section_of_picture(pictures[0], wish, materials, notes)
+        notes += check_size(found)
+        return found
+    if wish.colour or wish.pixel:
+        raise Refused(64, f"--colour and --pixel go with a picture: {', '.join(RASTERS)}")
     renamed = {key.casefold(): value for key, value in map(setting, wish.layer)}
     curves = read_curves(wish, materials, renamed, notes)
     if wish.rock:

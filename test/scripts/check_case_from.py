@@ -13,12 +13,14 @@ from pathlib import Path
 import matplotlib.image
 import numpy as np
 import yaml
+from PIL import Image, ImageDraw
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 PROGRAMS = Path(sys.argv[1]).resolve() if len(sys.argv) > 1 else ROOT / "build"
 os.environ["SEISMPM_PROGRAMS"] = str(PROGRAMS)
 sys.path.insert(0, str(ROOT / "scripts"))
 import case_from
+import named_materials
 from checking import report
 from plot_common import AREAS
 from resolved_case import Refused
@@ -70,7 +72,7 @@ def rows(points, mark=",", name=""):
 def built(folder, *words):
     """(section, notes) of a command line; areas by material are `areas` of it. Starts no program."""
     wish, notes = case_from.parse_arguments([*map(str, words), "--materials", str(folder / "materials.yaml"), "--out", str(folder / "none")]), []
-    materials, _ = case_from.known_materials(wish)
+    materials, _ = named_materials.known_materials(wish)
     found = case_from.section_of(wish, materials, notes)
     found.areas = {}
     for region in found.regions:
@@ -222,6 +224,56 @@ def refused(folder, code, part, *words):
     return False
 
 
+def painted(path, *patches, lines=False, size=(180, 40), pixel=0.5):
+    """Writes a picture of size x size (m): (colour, points in m), one over the other; smooth edges, and black lines around them if asked for."""
+    fine = 4
+    image = Image.new("RGB", tuple(round(fine * length / pixel) for length in size), "white")
+    pen = ImageDraw.Draw(image)
+    for colour, points in patches:
+        pen.polygon([(x / pixel * fine, (size[1] - y) / pixel * fine) for x, y in points], fill=colour, outline="black" if lines else None, width=fine)
+    image.resize((image.width // fine, image.height // fine), Image.LANCZOS).save(path)
+    return path
+
+
+def pictures(folder):
+    """Pictures, with smooth edges and with black lines, a lens in the clay and a fill on it: areas within their outline times a pixel."""
+    low = [(0, 0), (180, 0)]
+    clay, rock = [*low, (180, 16), (110, 16), (70, 36), (0, 36)], [*low, (180, 8), (80, 8), (40, 4), (0, 4)]
+    lens, fill = [(20, 16), (60, 16), (56, 24), (24, 25)], [(110, 16), (140, 16), (132, 20), (120, 21)]
+    legend = [word for name, colour in (("clay", "#c08040"), ("ROCK", "#808080"), ("weak clay", "#40a060"), ("fill", "#f0d040")) for word in ("--colour", f"{name}={colour}")]
+    area = {"rock": 180 * 4 + 40 * 2 + 100 * 4, "Weak Clay": shoelace(lens), "fill": shoelace(fill)}
+    area["clay"] = shoelace(clay) - area["rock"] - area["Weak Clay"]
+    outline = {"rock": 360, "Weak Clay": 85, "fill": 55, "clay": 900}  # m, about
+    worst = 0.0
+    for lines in (False, True):
+        path = painted(folder / "picture.png", ("#c08040", clay), ("#808080", rock), ("#40a060", lens), ("#f0d040", fill), lines=lines)
+        found, _ = built(folder, path, "--pixel", 0.5, *legend)
+        if set(found.areas) != set(area) or found.bottom != 0:
+            return np.inf, 0
+        worst = max(worst, *(abs(found.areas[name] - area[name]) / (0.5 * outline[name]) for name in area))
+    half, _ = built(folder, path, "--pixel", 0.5, *legend, "--scale", "2,1", "--shift=-100,10", "--bottom", 10)
+    worst = max(worst, abs(half.left + 100), abs(half.right - 260), abs(half.areas["fill"] / found.areas["fill"] / 2 - 1))
+    seam = [(60, 16), (90, 22), (98, 22), (62, 12)]  # comes to the surface on the slope, y = 16 + (110 - x) / 2
+    cut, _ = built(folder, painted(folder / "seam.png", ("#c08040", clay), ("#40a060", seam)), "--pixel", 0.5, *legend[:2], *legend[4:6])
+    worst = max(worst, abs(cut.areas["Weak Clay"] - shoelace(seam)) / (0.5 * 90), abs(sum(cut.areas.values()) - shoelace(clay)) / (0.5 * 400))
+    over = [*low, (180, 16), (100, 16), (120, 36), (0, 36)]
+    cave = painted(folder / "cave.png", ("#c08040", clay), ("#ffffff", [(20, 10), (50, 10), (50, 20), (20, 20)]))
+    bad = [refused(folder, 65, "clay hangs over air", painted(folder / "over.png", ("#c08040", over)), "--pixel", 0.5, *legend), refused(folder, 65, "hangs over air", cave, "--pixel", 0.5, *legend),
+           refused(folder, 65, "colours of no material, as #4040ff in row ", painted(folder / "blue.png", ("#c08040", clay), ("#4040ff", [(0, 4), (80, 4), (60, 36), (0, 36)])), "--pixel", 0.5, *legend),
+           refused(folder, 65, "air in the ground at x = 109.25 m, y = 36 m", painted(folder / "float.png", ("#c08040", clay), ("#808080", [(80, 36), (110, 36), (110, 38), (80, 38)])), "--pixel", 0.5, *legend),
+           refused(folder, 65, "above the base", painted(folder / "up.png", ("#c08040", [(x, y + 3 * (x < 90)) for x, y in clay])), "--pixel", 0.5, *legend),
+           refused(folder, 64, "its colours are #c08040", path, "--pixel", 0.5), refused(folder, 64, "wants --pixel", path, *legend), refused(folder, 64, "--colour sand: there is no", path, "--pixel", 1, "--colour", "sand=#000000"),
+           refused(folder, 64, "stands alone", path, "--pixel", 0.5, *legend, "--rock", "rock", "--depth", 3), refused(folder, 65, "cannot be read", table(folder / "no.png", "x"), "--pixel", 1, *legend),
+           refused(folder, 64, "go with a picture", folder / "ground.csv", "--pixel", 1)]
+    return worst + bad.count(False), 1
+
+
+def shoelace(points):
+    """Area of a polygon."""
+    x, y = np.array(points, dtype=float).T
+    return abs(x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2
+
+
 def refused_tables(folder):
     """Tables and options that are wrong are refused with line or option."""
     failed, good = 0, f"clay={table(folder / 'good.csv', rows(GROUND))}"
@@ -339,7 +391,7 @@ def checks():
         (folder / "materials.yaml").write_text(MATERIALS)
         for check in (lines_of_dxf, arcs, outlines, ends, coordinates, warnings, refusals):
             yield check.__doc__, check(folder) if ezdxf else "there is no ezdxf (apt-get install python3-ezdxf)"
-        for check in (tables, profile, refused_tables, whole, refused_by_program, like):
+        for check in (tables, profile, pictures, refused_tables, whole, refused_by_program, like):
             yield check.__doc__, check(folder)
 
 
