@@ -36,7 +36,7 @@ def call(*command, **named):
         raise Failed(66)
     done = subprocess.run([str(part) for part in command], check=False, **named)
     if done.returncode:
-        raise Failed(done.returncode)
+        raise Failed(done.returncode if done.returncode > 0 else 128 - done.returncode)  # of a signal as shells tell it
     return done
 
 

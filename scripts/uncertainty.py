@@ -24,7 +24,7 @@ from stages import Failed, both_stages, numbers, resolved_case, split_options, w
 from turning import turning
 from whole_file import write_whole
 
-ENDING = (64, 66, 70, 73, 74, 75)  # exit codes that other grids would have too, or that ask for the command again
+LEFT_OUT = (65, 80, 81)            # exit codes that tell of the grid: bad for the case, diverged, does not settle
 SHIFTS = (0, 3, 4)                 # shifted grids with the case's cells, the next and the coarsest: 1.15 of the case's work
 
 
@@ -113,7 +113,7 @@ class Series:
                     raise Failed(failed[grid.name])
                 self.run(grid)
             except Failed as failure:
-                if failure.code in ENDING or grid.name == "as-is":
+                if failure.code not in LEFT_OUT or grid.name == "as-is":
                     raise
                 print(f"uncertainty: {grid.name} ended with {failure.code}; it is left out", file=sys.stderr)
                 self.left_out[grid.name] = failure.code

@@ -138,7 +138,7 @@ Outcome run_trial(const std::string& sides, const Trial& t, unsigned seed)
 } // namespace
 
 TEST_CASE("A base gives no energy whatever its sides, wherever its face stands and however it moves",
-          "[boundaries]")
+          "[boundaries][long]")
 {
   const Threads one(1);
   const std::string sides = GENERATE("roller", "quiet", "free_field");

@@ -102,7 +102,7 @@ TEST_CASE("A base sends back less than with the lumped mass wherever its face st
 }
 
 TEST_CASE("A face's dashpots never give energy, however strong, wherever the face is in a cell",
-          "[boundaries]")
+          "[boundaries][long]")
 {
   const Threads one(1);
   const double contrast = GENERATE(1.0, 1e4), strength = GENERATE(1.0, 10.0, 1000.0),

@@ -127,7 +127,7 @@ TEST_CASE("a flipped byte in a dataset is reported, not read", "[io]")
   CHECK_THAT(message_of(read), Contains("b.h5: /particles/mass") && Contains("checksum"));
 }
 
-TEST_CASE("a flipped bit anywhere in a file, the loss of its end and more behind it are found", "[io]")
+TEST_CASE("a flipped bit anywhere in a file, the loss of its end and more behind it are found", "[io][long]")
 {
   const TemporaryFolder folder;
   write_mass(folder / "a.h5", ramp(20));

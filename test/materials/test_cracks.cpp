@@ -48,7 +48,7 @@ Point turned(Point p, double angle)
 }
 } // namespace
 
-TEST_CASE("Mohr-Coulomb with a cut-off returns where all of its planes together do", "[materials]")
+TEST_CASE("Mohr-Coulomb with a cut-off returns where all of its planes together do", "[materials][long]")
 {
   Random random(91);
   for (const double friction : {0.0, 20.0, 35.0})

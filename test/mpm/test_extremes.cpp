@@ -136,7 +136,7 @@ TEST_CASE("Ground that is pressed below a tenth of its volume is caught", "[mpm]
 // the plain sum of energies swings for ever, by some per cent; what grows by 0.1 % a step would double from
 // step 300 to 1000.
 TEST_CASE("Two hundred random clusters of one to five particles gain nothing at the Courant number 0.78",
-          "[mpm]")
+          "[mpm][long]")
 {
   const Threads one(1);
   const bool flip = GENERATE(true, false);
@@ -168,7 +168,7 @@ TEST_CASE("Two hundred random clusters of one to five particles gain nothing at 
 }
 
 TEST_CASE("A block of halves of which one is ten thousand times as stiff gains nothing in 100 000 steps",
-          "[mpm]")
+          "[mpm][long]")
 {
   const Threads one(1);
   const bool flip = GENERATE(true, false);

@@ -70,7 +70,7 @@ constexpr double step_angle = 2e-3 * std::numbers::pi;
 
 // A spinning block is under the centrifugal stress, of the order of rho omega^2 R^2. What is asked is that a
 // hundred turns add nothing to it.
-TEST_CASE("A block that spins a hundred turns has the centrifugal stress and no other", "[mpm]")
+TEST_CASE("A block that spins a hundred turns has the centrifugal stress and no other", "[mpm][long]")
 {
   const Threads one(1);
   const double rate = 0.05 * elastic().pressure_speed() / std::sqrt(8.0);

@@ -33,7 +33,7 @@ bool spins_briefly(const std::string& settings)
 }
 } // namespace
 
-TEST_CASE("threads spin briefly where the user does not say how they wait", "[mpm]")
+TEST_CASE("threads spin briefly where the user does not say how they wait", "[mpm][long]")
 {
   const std::string usual = runtime_settings("");
   INFO(usual);
