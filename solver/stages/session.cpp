@@ -8,17 +8,14 @@ namespace mpm
 namespace
 {
 constexpr double checkpoint_share = 0.02; // of the wall time, for writing checkpoints
-
-double seconds_since(std::chrono::steady_clock::time_point start)
-{
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 } // namespace
 
 Session::Session(Options given)
     : options(std::move(given)), log(options.verbosity, options.check ? Screen::answer : Screen::messages)
 {
   case_file = load_case(options.case_file, options.overrides, options.profile);
+  checkpoints_ =
+      Pace(case_file.output.checkpoint.every, case_file.output.checkpoint.adapts ? checkpoint_share : 0);
   for (const std::string& reason : case_file.chosen) log.info("profile {}: {}", case_file.profile, reason);
   if (!case_file.chosen.empty()) facts["profile_chose"] = case_file.chosen;
   for (const std::string& warning : case_file.warnings) log.warn("{}", warning);
@@ -38,34 +35,25 @@ bool Session::must_stop() const
   return interruption_requested() || (options.max_wall > 0 && wall_seconds() >= options.max_wall);
 }
 
-double Session::checkpoint_interval() const
-{
-  const CheckpointSettings& checkpoint = case_file.output.checkpoint;
-  return checkpoint.adapts ? std::max(checkpoint.every, checkpoint_cost_ / checkpoint_share)
-                           : checkpoint.every;
-}
-
 bool Session::checkpoint_due() const
 {
-  return seconds_since(last_checkpoint_) >= checkpoint_interval();
+  return checkpoints_.due();
 }
 
 void Session::write_checkpoint(const std::function<void()>& write)
 {
-  const Wall::time_point begin = Wall::now();
-  write();
-  checkpoint_cost_ = seconds_since(begin);
-  last_checkpoint_ = Wall::now();
+  checkpoints_.write(write);
   const CheckpointSettings& checkpoint = case_file.output.checkpoint;
-  if (told_of_cost_ || checkpoint_cost_ <= checkpoint_share * checkpoint.every) return;
+  const double cost = checkpoints_.cost();
+  if (told_of_cost_ || cost <= checkpoint_share * checkpoint.every) return;
   told_of_cost_ = true;
-  const std::string took = fmt::format("a checkpoint took {:.2g} s to write", checkpoint_cost_);
+  const std::string took = fmt::format("a checkpoint took {:.2g} s to write", cost);
   if (checkpoint.adapts)
     log.info("{}: the next ones come every {:.0f} s or so, which is {:.0f} % of the time", took,
-             checkpoint_interval(), 100 * checkpoint_share);
+             checkpoints_.interval(), 100 * checkpoint_share);
   else
     log.info("{}, {:.0f} % of the {:.3g} s between two; output.checkpoint.every: auto makes them rarer", took,
-             100 * checkpoint_cost_ / checkpoint.every, checkpoint.every);
+             100 * cost / checkpoint.every, checkpoint.every);
 }
 
 Provenance Session::provenance() const
@@ -76,6 +64,6 @@ Provenance Session::provenance() const
 
 double Session::wall_seconds() const
 {
-  return seconds_since(start_);
+  return std::chrono::duration<double>(Wall::now() - start_).count();
 }
 } // namespace mpm

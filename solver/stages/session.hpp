@@ -5,6 +5,7 @@
 #include "io/run_folder/log.hpp"
 #include "io/run_folder/run_folder.hpp"
 #include "solver/stages/command_line.hpp"
+#include "solver/stages/pace.hpp"
 
 #include <chrono>
 #include <functional>
@@ -42,10 +43,9 @@ public:
 
 private:
   using Wall = std::chrono::steady_clock;
-  double checkpoint_interval() const; ///< s
 
-  Wall::time_point start_ = Wall::now(), last_checkpoint_ = start_;
-  double checkpoint_cost_ = 0; ///< wall time that the last one took, s
+  Wall::time_point start_ = Wall::now();
+  Pace checkpoints_{0};
   bool told_of_cost_ = false;
 };
 } // namespace mpm

@@ -108,6 +108,7 @@ Shaking::Ended Shaking::loop(Clock& clock, Progress& progress)
     look_after(clock);
     if (progress.due()) progress.update(moment(clock));
     if (ended) break;
+    if (series_.due()) series_.write([&] { observer_.write(applied_until(clock)); });
     if ((!session_.must_stop() && !session_.checkpoint_due()) || !is_good()) continue;
     session_.write_checkpoint([&] { save(checkpoint_name(clock.step), clock); });
     if (session_.must_stop()) return Ended::interrupted;

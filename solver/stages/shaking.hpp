@@ -4,6 +4,7 @@
 #include "solver/stages/energy_watch.hpp"
 #include "solver/stages/motion.hpp"
 #include "solver/stages/observer.hpp"
+#include "solver/stages/pace.hpp"
 #include "solver/stages/resume.hpp"
 #include "solver/stages/self_driven.hpp"
 #include "solver/stages/summary.hpp"
@@ -53,6 +54,7 @@ private:
   const Motion& motion_;
   std::string from_;
   Observer observer_;
+  Pace series_{30, 0.01}; ///< of the series of a run that is under way, for whoever looks at it
   EnergyWatch energy_;
   Departures departures_;
   SelfDriven self_driven_;

@@ -85,24 +85,33 @@ TEST_CASE("the stress of a side is compared with that of its column", "[stages]"
   CHECK(side_stress_mismatch(model, case_file, Edge::right) == Approx(0.2));
 }
 
-TEST_CASE("checkpoints that take long to write become rarer, unless the case says how often", "[stages]")
+TEST_CASE(
+    "what takes long to write becomes rarer where a share of the time is set, as that of checkpoints is",
+    "[stages]")
 {
   using namespace std::chrono_literals;
-  const Stage stage;
-  Session session(stage.options(level_ground(1, 2, 8, 4, 8, 9.81)));
-  CheckpointSettings& settings = session.case_file.output.checkpoint;
-  REQUIRE(settings.adapts);
-  settings.every = 0.001;
-  session.write_checkpoint([] { std::this_thread::sleep_for(10ms); });
-  CHECK_FALSE(session.checkpoint_due());
+  const auto write = [] { std::this_thread::sleep_for(10ms); };
+  Pace shared(0.001, 0.02), fixed(0.001);
+  shared.write(write);
+  CHECK(shared.cost() >= 0.01);
+  CHECK(shared.interval() == shared.cost() / 0.02); // 0.5 s for 10 ms
+  CHECK_FALSE(shared.due());
   std::this_thread::sleep_for(100ms);
-  CHECK_FALSE(session.checkpoint_due()); // 2 % are 0.5 s for 10 ms
+  CHECK_FALSE(shared.due());
   const auto begin = std::chrono::steady_clock::now();
-  while (!session.checkpoint_due() && std::chrono::steady_clock::now() < begin + 60s)
-    std::this_thread::sleep_for(10ms);
-  CHECK(session.checkpoint_due());
-  settings.adapts = false;
-  session.write_checkpoint([] { std::this_thread::sleep_for(10ms); });
+  while (!shared.due() && std::chrono::steady_clock::now() < begin + 60s) std::this_thread::sleep_for(10ms);
+  CHECK(shared.due());
+  fixed.write(write);
+  CHECK(fixed.interval() == 0.001);
+  std::this_thread::sleep_for(5ms);
+  CHECK(fixed.due());
+
+  const Stage stage;
+  Session session(stage.options(level_ground(1, 2, 8, 4, 8, 9.81) + "output: {checkpoint: {every: 1 ms}}\n"));
   std::this_thread::sleep_for(5ms);
   CHECK(session.checkpoint_due());
+  session.write_checkpoint(write);
+  std::this_thread::sleep_for(5ms);
+  CHECK(session.checkpoint_due());
+  CHECK_FALSE(Session(stage.options(level_ground(1, 2, 8, 4, 8, 9.81))).checkpoint_due());
 }
