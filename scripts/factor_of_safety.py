@@ -123,8 +123,8 @@ class Search:
     def run(self, factor):
         """A trial that has ended: exit code 0 or 81, and its folder."""
         folder = self.given.out / f"F-{factor:.4f}"
-        code = read_summary(folder).get("exit")
-        if code not in (0, 81):
+        code = 0 if (folder / "finished.json").exists() else read_summary(folder).get("exit")
+        if code != 81 and not (folder / "finished.json").exists():  # with a summary too: it may have been stopped after that
             settings = {**self.own, **self.settings, **weakened(self.case["materials"], factor)}
             code = self.pool.run(folder, [program(self.given.programs, "mpm-static"), self.given.case, "--out", folder, "--quiet",
                                           *options_of(self.given.profile, settings)])

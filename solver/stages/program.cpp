@@ -9,6 +9,7 @@
 #include "solver/stages/session.hpp"
 #include "solver/stages/version.hpp"
 
+#include <filesystem>
 #include <iostream>
 
 namespace mpm
@@ -67,6 +68,13 @@ catch (const std::bad_alloc&)
             << ": memory is not enough: use larger cells (grid.spacing) or a smaller domain, or free memory; "
                "--check tells what a case needs\n";
   return exit_code::bad_input;
+}
+catch (const std::filesystem::filesystem_error& error)
+{
+  // A folder that goes away under a run, for one.
+  std::cerr << name << ": " << printable(error.what())
+            << "; the last checkpoint is whole where it is still there, and the same command goes on\n";
+  return exit_code::write_failed;
 }
 catch (const std::exception& error)
 {

@@ -13,7 +13,7 @@ WHO = {"program", "version", "git", "build", "command", "created", "host"}      
 TECHNICAL = {"DIMENSION_LIST", "REFERENCE_LIST"}                                      # references, as HDF5 numbers them
 WHAT_BEFELL = {"warnings", "frame_digests"}                                           # datasets: those of the log; when frames were written
 OF_SUMMARY = {"threads", "wall_seconds", "ns_per_particle_step", "phases", "command", "warnings", "digests", "folder"}
-IGNORED = re.compile(r"log\.txt|\.lock|.*\.err|.*\.unusable|points\.jsonl")
+IGNORED = re.compile(r"log\.txt|\.lock|.*\.(err|exit)|.*\.unusable|points\.jsonl")
 OF_STATE = ("summary.png", "report.html")  # show the digest of the state that the run began with, which tells when that was written
 CHECKPOINT = re.compile(r"checkpoint-\d+\.h5")
 

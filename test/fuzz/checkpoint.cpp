@@ -1,37 +1,23 @@
-// A result file of any bytes is refused, unless its seal fits; with a seal that fits it is refused or taken
-// up.
+// A result file of any bytes is refused, unless its seal fits. Behind a seal that was made to fit stands HDF5
+// itself, whose readers of its own structures are not ours to mend; what a well-formed file may say wrongly
+// is the target `state`.
 
 #include "io/common/error.hpp"
-#include "solver/mpm/domain.hpp"
 #include "test/fuzz/states.hpp"
 #include "test/fuzz/targets.hpp"
-#include "test/sealed.hpp"
 
 namespace mpm::fuzz
 {
-namespace
-{
-void try_one(StateKind kind, const std::string& bytes)
+void try_checkpoint(std::string_view bytes)
 try
 {
-  take_up(kind, bytes);
+  if (bytes.empty()) return;
+  const std::string file(bytes.substr(1));
+  take_up(static_cast<StateKind>(static_cast<unsigned char>(bytes.front()) % state_kinds), file);
 }
 catch (const Error& error)
 {
   hold(error.code == exit_code::bad_input || error.code == exit_code::folder_taken,
        std::to_string(error.code) + ": " + error.what());
-}
-catch (const Diverged&)
-{
-}
-} // namespace
-
-void try_checkpoint(std::string_view bytes)
-{
-  if (bytes.empty()) return;
-  const unsigned first = static_cast<unsigned char>(bytes.front());
-  const std::string file(bytes.substr(1));
-  try_one(static_cast<StateKind>(first / 2 % state_kinds),
-          first % 2 ? test::sealed(test::unsealed(file)) : file);
 }
 } // namespace mpm::fuzz

@@ -6,6 +6,7 @@
 #include "test/fuzz/states.hpp"
 #include "test/fuzz/targets.hpp"
 #include "test/io/record_samples.hpp"
+#include "test/sealed.hpp"
 #include "test/temporary_folder.hpp"
 
 #include <fmt/format.h>
@@ -109,8 +110,8 @@ void write_states(const fs::path& folder)
   for (int kind = 0; kind < fuzz::state_kinds; ++kind)
   {
     const std::string& bytes = fuzz::state_bytes(static_cast<fuzz::StateKind>(kind));
-    files.add(static_cast<char>(2 * kind) + bytes);
-    files.add(static_cast<char>(2 * kind + 1) + bytes);
+    files.add(static_cast<char>(kind) + bytes);
+    files.add(static_cast<char>(kind) + test::sealed(bytes));
     for (int what = 0; what < 12; ++what)
       edits.add({static_cast<char>(kind), static_cast<char>(what), static_cast<char>(what * 5),
                  static_cast<char>(what), 0, static_cast<char>(7 * what), 0, 0, 0, 0, 0, 0, 0, 0, 0, '\x40',

@@ -26,7 +26,7 @@ inline void hold(bool what, const std::string& message)
 void try_case(std::string_view bytes);
 /// A record; its first line is `FILE|FORMAT|DT|UNIT|COMPONENT`, all but FILE may be empty.
 void try_record(std::string_view bytes);
-/// A result file as it stands, and once more with a seal that fits.
+/// Which state a result file is taken for, and its bytes.
 void try_checkpoint(std::string_view bytes);
 /// Changes to states of small runs, made through HDF5 and sealed; see state_edits.hpp.
 void try_state(std::string_view bytes);

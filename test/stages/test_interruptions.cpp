@@ -1,5 +1,7 @@
 // Signals, pipes and inputs that are no files: a run ends as it says, or is never begun.
 
+#include "solver/stages/program.hpp"
+#include "solver/stages/session.hpp"
 #include "test/stages/programs.hpp"
 #include "test/stages/results.hpp"
 
@@ -116,4 +118,20 @@ TEST_CASE("inputs larger than any that is meant are refused with 66", "[stages]"
   check(bench / "long.txt", 3'000'000'000,
         bench.seismic_arguments("out", {"--motion", bench.path("long.txt")}));
   check(bench / "case.yaml", 3'000'000'000, bench.seismic_arguments("out"));
+}
+
+TEST_CASE("a folder that goes away under a run is a failed write and no bug of ours", "[stages]")
+{
+  ::setenv("OMP_WAIT_POLICY", "passive", 1); // else the program begins once more with it
+  const Bench bench;
+  const std::string path = bench.path("case.yaml"), out = bench.path("out");
+  std::vector<std::string> words{"mpm-static", path, "--out", out};
+  std::vector<char*> given;
+  for (std::string& word : words) given.push_back(word.data());
+  const auto gone = [](Session& session) -> int
+  {
+    for (const auto& entry : fs::directory_iterator(session.options.out)) (void)entry; // is not made yet
+    return 0;
+  };
+  CHECK(run_program(int(given.size()), given.data(), "mpm-static", gone) == exit_code::write_failed);
 }
