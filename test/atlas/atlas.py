@@ -144,4 +144,8 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    try:
+        sys.exit(main())
+    except OSError as reason:
+        print(f"atlas: {reason}; what is done is kept, and the same command goes on", file=sys.stderr)
+        sys.exit(74)
