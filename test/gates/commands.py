@@ -25,7 +25,7 @@ BUILT = (*STAGES, "seismpm-tests", "seismpm-verify")  # the others only when the
 NO_PROGRAMS = {"scripts/find-python", "scripts/find-programs", "scripts/install-packages"}  # without options
 WITHOUT_FILES = {"--out", "--from", "--motion", "--vertical", "--record-dt", "--record-unit", "--record-format",
                  "--record-component", "--vertical-component"}  # what --print-case of a case does not need
-OURS = re.compile(r"(\S*/)?(scripts/[\w-]+|test/campaign/campaign|build[\w-]*/[\w-]+|mpm-static|mpm-seismic|seismpm-\w+)$|seismpm$")
+OURS = re.compile(r"(\S*/)?(scripts/[\w-]+|test/campaign/campaign|test/fuzz/fuzz|build[\w-]*/[\w-]+|mpm-static|mpm-seismic|seismpm-\w+)$|seismpm$")
 STANDS_FOR = re.compile(r"[\[\]<>*{}|…$]|\.\.\.|\b[A-Z]{1,}[A-Z_]*\b(?![\w-]*\d)")
 PATH = re.compile(r"(scripts|test|cases|solver|io|boundaries|materials)/[\w./-]+$")
 
@@ -103,7 +103,7 @@ def options_of_any():
 def made_by_cmake():
     """Names of the programs that CMakeLists.txt can build."""
     told = tree.text("CMakeLists.txt")
-    return set(re.findall(r"add_executable\(([\w-]+)", told)) | set(STAGES)
+    return set(re.findall(r"add_executable\(([\w-]+)", told)) | set(STAGES) | {f"fuzz-{path.stem}" for path in (tree.ROOT / "test/fuzz/corpus").iterdir()}
 
 
 def check_preset(words):
