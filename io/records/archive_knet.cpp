@@ -84,7 +84,7 @@ Record read_knet(const RecordSource& source, Lines lines)
     refuse(source, lines.back(),
            "ends without the blank of the lines above it; fetch it again, it is cut off");
   // The header counts no samples but tells rate and duration.
-  const auto expected = std::size_t(std::llround(rate * duration));
+  const auto expected = std::size_t(std::round(std::clamp(rate * duration, 0.0, 1e15)));
   if (values.size() != expected)
     refuse(source, labelled(source, lines, "Duration Time(s)"),
            "the header announces " + std::to_string(expected) + " values, and the file holds " +

@@ -26,7 +26,7 @@ FirstLine first_line(const RecordSource& source, const std::vector<Line>& data)
   const bool is_count =
       first->front() >= 5 && (is_whole(tokens[0]) || (first->size() == 1 && first->front() == double(rest)));
   if (!is_count) return {};
-  const std::size_t count = std::size_t(first->front());
+  const std::size_t count = std::size_t(std::min(first->front(), 1e15)); // more than lines there can be
   // Count and step above one column, or above time and value.
   if (first->size() == 2)
   {
