@@ -123,8 +123,9 @@ class Search:
     def run(self, factor):
         """A trial that has ended: exit code 0 or 81, and its folder."""
         folder = self.given.out / f"F-{factor:.4f}"
-        code = 0 if (folder / "finished.json").exists() else read_summary(folder).get("exit")
-        if code != 81 and not (folder / "finished.json").exists():  # with a summary too: it may have been stopped after that
+        finished = (folder / "finished.json").exists()  # a summary of 0 alone may be that of a trial stopped after it
+        code = 0 if finished else read_summary(folder).get("exit")
+        if not finished and code != 81:
             settings = {**self.own, **self.settings, **weakened(self.case["materials"], factor)}
             code = self.pool.run(folder, [program(self.given.programs, "mpm-static"), self.given.case, "--out", folder, "--quiet",
                                           *options_of(self.given.profile, settings)])
