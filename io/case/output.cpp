@@ -91,9 +91,8 @@ CheckpointSettings read_checkpoint(Section section, Problems& problems)
        "wall time between checkpoints; auto: 600 s, or 50 times what writing one takes where that is longer, "
        "so that they take no more than 2 % of a long run",
        "auto or a time, above 0 s", "auto"});
-  if (!every || every->text == "auto")
-    section.resolve("every", "auto");
-  else
+  if (!every) section.resolve("every", "auto");
+  if (every && every->text != "auto")
   {
     checkpoint.adapts = false;
     if (every->kind == YamlNode::Kind::scalar && parse_quantity(every->text, Dimension::time).problem.empty())

@@ -70,8 +70,6 @@ std::optional<MotionSource> read_direction(Section& motion, std::string_view key
       motion.find({key, "the record of this direction; built_in is a synthetic motion of the program's own",
                    "built_in, or a map of the keys below", otherwise});
   if (!node) return std::nullopt;
-  if (node->text == "built_in")
-    motion.resolve(key, "built_in"); // written out here, as where it is the default
   return read_source(*node, folder, problems);
 }
 

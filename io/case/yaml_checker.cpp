@@ -189,16 +189,24 @@ void Section::describe(const Key& key, const std::string& form, const std::strin
        key.otherwise.empty() ? otherwise : std::string(key.otherwise), std::string(key.meaning)});
 }
 
+// Who asks for a node reads it in a way of its own: it is written out as it was typed, in the place where its
+// default would be.
+const YamlNode* Section::keep(const YamlNode* child) const
+{
+  if (child && child->kind == YamlNode::Kind::scalar) resolve(child->key, child->text);
+  return child;
+}
+
 const YamlNode* Section::find(const Key& key)
 {
   describe(key, "");
-  return look_up(key.name);
+  return keep(look_up(key.name));
 }
 
 const YamlNode* Section::require(const Key& key)
 {
   describe(key, "");
-  return look_up_required(key.name);
+  return keep(look_up_required(key.name));
 }
 
 const YamlNode* Section::look_up_required(std::string_view key)

@@ -76,6 +76,7 @@ private:
 
   const YamlNode* look_up(std::string_view key);
   const YamlNode* look_up_required(std::string_view key); ///< says so if it is absent
+  const YamlNode* keep(const YamlNode* child) const;      ///< writes it out as it was typed
   /// For --keys; the key's own words go before these. No `otherwise`: it is required.
   void describe(const Key& key, const std::string& form, const std::string& otherwise = {}) const;
 };
