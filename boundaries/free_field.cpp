@@ -53,16 +53,15 @@ int FreeFieldColumn::row_near(double y) const
   return nearest;
 }
 
-std::vector<Eigen::Matrix2d> FreeFieldColumn::stress_of_rows() const
+std::vector<RowStress> FreeFieldColumn::stress_of_rows() const
 {
   const Particles& p = domain->particles;
-  std::vector<Eigen::Matrix2d> result;
+  std::vector<RowStress> result;
   for (const std::int64_t id : ids_)
   {
     const int k = domain->particles.index_of[id];
-    Eigen::Matrix2d sigma;
-    sigma << p.stress_xx[k], p.stress_xy[k], p.stress_xy[k], p.stress_yy[k];
-    result.push_back(p.volume[k] * sigma);
+    result.push_back(
+        {p.volume[k] * p.stress_xx[k], p.volume[k] * p.stress_yy[k], p.volume[k] * p.stress_xy[k]});
   }
   return result;
 }
@@ -90,13 +89,13 @@ void FreeFieldSide::begin(const Domain& domain, double position, double bottom, 
     if (std::fabs(p.x[k] - position) > image_cells * domain.grid.spacing) continue;
     Image ghost;
     ghost.parent = id;
-    ghost.offset.x() = 2 * (position - p.x[k]);
+    ghost.offset[0] = 2 * (position - p.x[k]);
     ghost.load = column_->row_near(p.reference_y[k]);
     ghosts_.list.push_back(ghost);
     for (Face face : base)
       if (face.particle == id)
       {
-        face.offset_x += ghost.offset.x();
+        face.offset_x += ghost.offset[0];
         ghost_base_.push_back(face);
       }
   }
@@ -149,9 +148,10 @@ void FreeFieldSide::load_ghosts()
   ghosts_.loads.resize(column_->rows());
   for (int row = 0; row < column_->rows(); ++row)
   {
-    const Eigen::Matrix2d stress = column_->stress[row] - static_stress_[row];
-    ghosts_.loads[row] = {.stress_x = {stress(0, 0), stress(1, 0)},
-                          .stress_y = {stress(0, 1), stress(1, 1)},
+    const RowStress &now = column_->stress[row], &at_rest = static_stress_[row];
+    const double xy = now.xy - at_rest.xy;
+    ghosts_.loads[row] = {.stress_x = {now.xx - at_rest.xx, xy},
+                          .stress_y = {xy, now.yy - at_rest.yy},
                           .mass = column_->domain->particles.mass[column_->particle_of_row(row)]};
   }
 }
@@ -226,11 +226,10 @@ void FreeFieldSide::visit_state(StateVisitor& visitor)
   if (!column_) return;
   ghosts_.visit_list(visitor, "ghost_");
   visit_faces(visitor, "ghost_base_", ghost_base_);
-  RecordVisitor<Eigen::Matrix2d> rows(visitor, "static_stress_volume_", static_stress_);
-  rows.each("xx", "N m/m", [](auto& stress) -> double& { return stress(0, 0); });
-  rows.each("yy", "N m/m", [](auto& stress) -> double& { return stress(1, 1); });
-  rows.each("xy", "N m/m", [](auto& stress) -> double& { return stress(0, 1); });
-  for (Eigen::Matrix2d& stress : static_stress_) stress(1, 0) = stress(0, 1);
+  RecordVisitor<RowStress> rows(visitor, "static_stress_volume_", static_stress_);
+  rows.member("xx", "N m/m", &RowStress::xx);
+  rows.member("yy", "N m/m", &RowStress::yy);
+  rows.member("xy", "N m/m", &RowStress::xy);
 }
 
 std::string FreeFieldSide::state_problem(const Domain& domain) const

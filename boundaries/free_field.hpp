@@ -5,6 +5,12 @@
 
 namespace mpm
 {
+/// In-plane stress of a row of particles times their volume, N m per m.
+struct RowStress
+{
+  double xx = 0, yy = 0, xy = 0;
+};
+
 /// A free-field column, the level ground beside the model: a domain one cell wide and wrapped, which makes it
 /// a column of ground in one dimension (Grid::wrapped), with the rows, materials and base of the model's
 /// outermost column of particles. It makes each step before the model does, feels nothing of the model, and
@@ -22,13 +28,13 @@ public:
   int row_near(double y) const;
   int rows() const { return static_cast<int>(ids_.size()); }
   /// V sigma (N m per m) of the rows as they are now.
-  std::vector<Eigen::Matrix2d> stress_of_rows() const;
+  std::vector<RowStress> stress_of_rows() const;
   /// Displacement of the lowest row as it is now, and the side below which it stands.
   FreeFieldBase base() const;
 
   std::unique_ptr<Domain> domain;
   const CompliantBase* compliant_base = nullptr; ///< of the domain; null on a fixed base
-  std::vector<Eigen::Matrix2d> stress;           ///< of the rows, at the step's start
+  std::vector<RowStress> stress;                 ///< of the rows, at the step's start
   std::vector<std::array<double, 2>> velocity;   ///< of the grid rows, mean of the step's start and end, m/s
   std::vector<std::array<double, 2>> acceleration; ///< of the grid rows, m/s2
   int first_row = 0;                               ///< grid row of the first entry
@@ -90,9 +96,9 @@ private:
   const FreeFieldColumn* column_;
   std::shared_ptr<const IncomingWave> wave_;
   std::vector<Face> faces_;
-  std::vector<Face> ghost_base_;               ///< base dashpots below the ghost rows
-  FaceNodes nodes_, ghost_nodes_;              ///< of both, in the last step
-  Images ghosts_;                              ///< their loads are those of the column's rows
-  std::vector<Eigen::Matrix2d> static_stress_; ///< of the column's rows at the switch
+  std::vector<Face> ghost_base_;         ///< base dashpots below the ghost rows
+  FaceNodes nodes_, ghost_nodes_;        ///< of both, in the last step
+  Images ghosts_;                        ///< their loads are those of the column's rows
+  std::vector<RowStress> static_stress_; ///< of the column's rows at the switch
 };
 } // namespace mpm

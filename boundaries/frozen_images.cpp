@@ -17,7 +17,8 @@ struct Loaded
 /// Mirrors an image (or a particle, taken as its own image) at one more wall. Positions are mirrored by M, -1
 /// on the wall's normal axis; vectors by S, which is M where the wall slips and -1 where it sticks. So X* = M
 /// X, w* = S w, and of a stress, which turns a gradient into a force, Sigma* = S Sigma M.
-Loaded mirror(const Loaded& original, const Wall& wall, const Eigen::Vector2d& parent, double wall_position)
+Loaded mirror(const Loaded& original, const Wall& wall, const std::array<double, 2>& parent,
+              double wall_position)
 {
   const int normal = wall.normal == Direction::x ? 0 : 1;
   const double S[] = {wall.image_sign_x(), wall.image_sign_y()};
@@ -47,7 +48,7 @@ Images make_images(const Domain& domain, std::span<const Wall> walls)
                        .stress_y = {V * p.stress_xy[k], V * p.stress_yy[k]},
                        .weight = {m * domain.settings.gravity_x, m * domain.settings.gravity_y}}};
     std::vector<Loaded> family{self};
-    const Eigen::Vector2d parent(p.x[k], p.y[k]);
+    const std::array<double, 2> parent{p.x[k], p.y[k]};
     for (const Wall& wall : walls)
     {
       const double position = parent[wall.normal == Direction::x ? 0 : 1];

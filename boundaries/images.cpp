@@ -21,8 +21,8 @@ void Images::sort(const Grid& g, const Particles& p)
   for (Image& image : list)
   {
     const int parent = p.index_of[image.parent];
-    const int i = cell(p.x[parent] + image.offset.x(), g.origin_x);
-    const int j = cell(p.y[parent] + image.offset.y(), g.origin_y);
+    const int i = cell(p.x[parent] + image.offset[0], g.origin_x);
+    const int j = cell(p.y[parent] + image.offset[1], g.origin_y);
     image.block = {g.wrapped ? 0 : block_of(i), block_of(j)};
   }
 }
@@ -34,7 +34,7 @@ void Images::bind(const Grid& grid, const Particles& p)
   std::sort(list.begin(), list.end(), [&](const Image& a, const Image& b) { return rank(a) < rank(b); });
   bound_.clear();
   for (const Image& image : list)
-    bound_.push_back({image.offset.x(), image.offset.y(), p.index_of[image.parent], image.load});
+    bound_.push_back({image.offset[0], image.offset[1], p.index_of[image.parent], image.load});
   blocks_.clear();
   work_ = {};
   for (int k = 0; k < static_cast<int>(list.size()); ++k)
@@ -234,7 +234,7 @@ std::string Images::problem(const Grid& grid, const Particles& p, std::size_t lo
     if (image.load < 0 || std::size_t(image.load) >= loads_there)
       return "an image brings load " + std::to_string(image.load) + ", which is not there";
     const int k = p.index_of[image.parent];
-    if (!within_tile(grid, image.block, p.x[k] + image.offset.x(), p.y[k] + image.offset.y()))
+    if (!within_tile(grid, image.block, p.x[k] + image.offset[0], p.y[k] + image.offset[1]))
       return "an image does not stand in its block";
   }
   return {};
@@ -251,8 +251,8 @@ void Images::visit_list(StateVisitor& visitor, const std::string& prefix)
       "block_x", [](Image & image) -> auto& { return image.block.x; });
   each.each_integer(
       "block_y", [](Image & image) -> auto& { return image.block.y; });
-  each.each("offset_x", "m", [](Image& image) -> double& { return image.offset.x(); });
-  each.each("offset_y", "m", [](Image& image) -> double& { return image.offset.y(); });
+  each.each("offset_x", "m", [](Image& image) -> double& { return image.offset[0]; });
+  each.each("offset_y", "m", [](Image& image) -> double& { return image.offset[1]; });
 }
 
 void Images::visit_loads(StateVisitor& visitor, const std::string& prefix)

@@ -1,8 +1,7 @@
 #pragma once
 
 #include "solver/mpm/domain.hpp"
-
-#include <Eigen/Core>
+#include "solver/mpm/tile.hpp"
 
 #include <array>
 #include <span>
@@ -29,10 +28,10 @@ struct alignas(64) ImageLoad
 /// particle of the model, and so goes where that goes; it has no motion of its own.
 struct Image
 {
-  std::int64_t parent = 0;                          ///< particle id
-  Eigen::Vector2d offset = Eigen::Vector2d::Zero(); ///< from the parent, m
-  BlockIndex block{};                               ///< in which it stood at the last sort
-  int load = 0;                                     ///< which of the loads it brings
+  std::int64_t parent = 0;        ///< particle id
+  std::array<double, 2> offset{}; ///< from the parent, m
+  BlockIndex block{};             ///< in which it stood at the last sort
+  int load = 0;                   ///< which of the loads it brings
 };
 
 /// What a step needs of an image.

@@ -6,6 +6,7 @@
 #include "solver/mpm/domain.hpp"
 #include "solver/mpm/spline.hpp"
 #include "solver/mpm/step.hpp"
+#include "solver/mpm/tile.hpp"
 
 #include <algorithm>
 

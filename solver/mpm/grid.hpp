@@ -7,14 +7,12 @@
 // its contributions in one order. That is why results do not depend on the number of threads.
 
 #include "solver/mpm/parallel.hpp"
-#include "solver/mpm/simd.hpp"
-
-#include <Eigen/Core>
 
 #include <array>
 #include <bit>
 #include <compare>
-#include <type_traits>
+#include <cstddef>
+#include <new>
 #include <vector>
 
 namespace mpm
@@ -72,8 +70,25 @@ struct BlockIndex
 /// Indices in Grid::blocks of the 3 x 3 blocks around a block, row by row from below; -1 where there is none.
 using Neighbours = std::array<int, 9>;
 
+/// Memory that begins at a cache line, and so where a vector of any instructions may.
+template <class T>
+struct CacheLineAllocator
+{
+  using value_type = T;
+  static constexpr std::align_val_t alignment{64};
+
+  CacheLineAllocator() = default;
+  template <class Other>
+  CacheLineAllocator(const CacheLineAllocator<Other>&)
+  {
+  }
+  T* allocate(std::size_t count) { return static_cast<T*>(::operator new(count * sizeof(T), alignment)); }
+  void deallocate(T* memory, std::size_t) { ::operator delete(memory, alignment); }
+  bool operator==(const CacheLineAllocator&) const = default;
+};
+
 /// One number at each node; a row of a block is as aligned as vectors are.
-using NodeField = std::vector<double, Eigen::aligned_allocator<double>>;
+using NodeField = std::vector<double, CacheLineAllocator<double>>;
 
 /// Sparse background grid. Node (i, j) stands at origin + spacing * (i, j). Node fields are stored block by
 /// block in the order of `blocks`, row by row in a block; all values are per m out of plane.
@@ -177,132 +192,4 @@ private:
   Neighbours around_{};
   bool known_ = false;
 };
-
-/// A dense copy of one node field for the particles of a block, with the margin that they reach.
-struct alignas(64) Tile
-{
-  std::array<double, tile_size> value;
-};
-
-/// The same of a field of vectors, (x, y) after (x, y).
-struct alignas(64) PairTile
-{
-  std::array<double, 2 * tile_size> value;
-};
-
-/// Calls f(node, at, count) for the runs of consecutive nodes that a tile and the grid share: `node` is the
-/// first one's index in the node fields, `at` its index in the tile, the count a compile-time constant. A
-/// tile reaches into all 3 x 3 blocks `around`. In a wrapped grid every tile column is the one node column.
-template <class Function>
-void for_each_run(const Grid& grid, const Neighbours& around, const Function& f)
-{
-  constexpr std::integral_constant<int, 1> one{};
-  constexpr std::integral_constant<int, tile_margin> before{};
-  constexpr std::integral_constant<int, block_cells> inside{};
-  constexpr std::integral_constant<int, tile_margin + 1> after{};
-  constexpr int first_row[] = {block_cells - tile_margin, 0, 0},
-                end_row[] = {block_cells, block_cells, after};
-  for (int band = 0; band < 3; ++band)
-  {
-    // Rows that a block and the tile share, from the block's node `column` on.
-    const auto rows = [&](int block, int column, auto count, int tile_column)
-    {
-      if (block < 0) return;
-      const int node = block * block_nodes + column;
-      const int tile = (block_cells * (band - 1) + tile_margin) * tile_stride + tile_column;
-      for (int row = first_row[band]; row < end_row[band]; ++row)
-        f(node + row * block_cells, tile + row * tile_stride, count);
-    };
-    const int* const blocks = &around[3 * band];
-    if (grid.wrapped)
-    {
-      for (int column = 0; column < tile_nodes; ++column) rows(blocks[1], 0, one, column);
-      continue;
-    }
-    rows(blocks[0], block_cells - tile_margin, before, 0);
-    rows(blocks[1], 0, inside, tile_margin);
-    rows(blocks[2], 0, after, tile_margin + block_cells);
-  }
-}
-
-/// Adds a tile, or one component of a tile of vectors, to the column of nodes of a wrapped grid.
-template <int components>
-void add_to_column(const Neighbours& around, const double* tile, NodeField& field)
-{
-  for (int row = 0; row < tile_nodes; ++row)
-  {
-    const int y = row - tile_margin, block = around[y < 0 ? 1 : y < block_cells ? 4 : 7];
-    if (block < 0) continue;
-    double sum = 0;
-    for (int column = 0; column < tile_nodes; ++column)
-      sum += tile[components * (row * tile_stride + column)];
-    field[block * block_nodes + index_in_block(0, y)] += sum;
-  }
-}
-
-/// Adds a tile to the node field of the blocks around it.
-inline void add_tile(const Grid& grid, const Neighbours& around, const Tile& tile, NodeField& field)
-{
-  if (grid.wrapped) return add_to_column<1>(around, tile.value.data(), field);
-  for_each_run(grid, around,
-               [&](int node, int at, auto count)
-               {
-                 double* __restrict to = &field[node];
-                 for (int k = 0; k < count; ++k) to[k] += tile.value[at + k];
-               });
-}
-
-/// Adds a tile of vectors to the node fields of their components.
-inline void add_tile(const Grid& grid, const Neighbours& around, const PairTile& tile, NodeField& x,
-                     NodeField& y)
-{
-  if (grid.wrapped)
-  {
-    add_to_column<2>(around, tile.value.data(), x);
-    add_to_column<2>(around, tile.value.data() + 1, y);
-    return;
-  }
-  for_each_run(grid, around,
-               [&](int node, int at, auto count)
-               {
-                 double* __restrict to_x = &x[node], * __restrict to_y = &y[node];
-                 const double* __restrict from = &tile.value[2 * at];
-                 for (int k = 0; k < count; ++k)
-                 {
-                   to_x[k] += from[2 * k];
-                   to_y[k] += from[2 * k + 1];
-                 }
-               });
-}
-
-/// Copies a node field into a tile; nodes of blocks that do not exist are zero.
-inline void read_tile(const Grid& grid, const Neighbours& around, const NodeField& field, Tile& tile)
-{
-  tile.value.fill(0);
-  for_each_run(grid, around,
-               [&](int node, int at, auto count)
-               {
-                 const double* __restrict from = &field[node];
-                 double* __restrict to = &tile.value[at];
-                 for (int k = 0; k < count; ++k) to[k] = from[k];
-               });
-}
-
-/// Copies the components of a vector field into a tile; nodes of blocks that do not exist are zero.
-inline void read_tile(const Grid& grid, const Neighbours& around, const NodeField& x, const NodeField& y,
-                      PairTile& tile)
-{
-  tile.value.fill(0);
-  for_each_run(grid, around,
-               [&](int node, int at, auto count)
-               {
-                 const double* __restrict from_x = &x[node], * __restrict from_y = &y[node];
-                 double* __restrict to = &tile.value[2 * at];
-                 for (int k = 0; k < count; ++k)
-                 {
-                   to[2 * k] = from_x[k];
-                   to[2 * k + 1] = from_y[k];
-                 }
-               });
-}
 } // namespace mpm

@@ -8,31 +8,28 @@ namespace mpm
 {
 namespace
 {
-/// The different cells in which the particles of some lanes stand, mostly one: nodes are read once a cell.
-struct LaneCells
+/// The nodes of the particles of some lanes, mostly one run: nodes are read once a run.
+struct LaneNodes
 {
   int count = 0;
-  int node[lanes];      ///< index in the tile of the first node of the cell's stencil
-  Selection who[lanes]; ///< the lanes whose particles are there
+  LaneRun run[lanes];
 
-  explicit LaneCells(const int* nodes)
+  /// Of the first nodes of their stencils, as indices in the tile.
+  explicit LaneNodes(const int* first)
   {
-    unsigned left = (1u << lanes) - 1;
-    while (left != 0)
+    for (unsigned left = (1u << lanes) - 1; left != 0; ++count)
     {
-      node[count] = nodes[std::countr_zero(left)];
-      who[count] = equal(nodes, node[count]);
-      left &= ~bits(who[count]);
-      ++count;
+      run[count] = LaneRun(first, std::countr_zero(left));
+      left &= ~bits(run[count].who);
     }
   }
   /// A row of a stencil's nodes, each for the particles of all lanes.
   [[gnu::always_inline]] void pick(const Tile& field, int row, Lanes (&nodes)[4]) const
   {
-    const double* from = &field.value[row * tile_stride];
-    for (int i = 0; i < 4; ++i) nodes[i] = from[node[0] + i] - Lanes{};
+    const double* const from = &field.value[row * tile_stride];
+    for (int i = 0; i < 4; ++i) nodes[i] = run[0].taken(Lanes{}, from, i);
     for (int c = 1; c < count; ++c)
-      for (int i = 0; i < 4; ++i) nodes[i] = replaced(nodes[i], who[c], &from[node[c] + i]);
+      for (int i = 0; i < 4; ++i) nodes[i] = run[c].taken(nodes[i], from, i);
   }
 };
 
@@ -48,46 +45,37 @@ struct NodeSums
   Lanes value{};                ///< w v
   Lanes slope_x{}, slope_y{};   ///< dw/dx v, dw/dy v
   Lanes moment_x{}, moment_y{}; ///< w (x_i - x) v, w (y_i - y) v (eq. 3)
+  Lanes gained{};               ///< w times a second field, which FLIP needs
 };
 
-/// Of the particles from k on.
-[[gnu::noinline]] NodeSums sum_nodes(const Tile& field, const LaneCells& cells, const Splines& s, int k)
+/// Of the particles from k on; of the second field only with FLIP.
+template <bool flip>
+[[gnu::noinline]] NodeSums sum_nodes(const Tile& field, const Tile& second, const LaneNodes& nodes,
+                                     const Splines& s, int k)
 {
   NodeSums sum;
 #pragma GCC unroll 4
   for (int j = 0; j < 4; ++j)
   {
-    Lanes node[4], value{}, slope{}, moment{};
-    cells.pick(field, j, node);
+    Lanes node[4], other[4], value{}, slope{}, moment{}, gained{};
+    nodes.pick(field, j, node);
+    if constexpr (flip) nodes.pick(second, j, other);
 #pragma GCC unroll 4
     for (int i = 0; i < 4; ++i)
     {
-      value += load_as<Lanes>(&s.x.weight[i][k]) * node[i];
+      const Lanes weight = load_as<Lanes>(&s.x.weight[i][k]);
+      value += weight * node[i];
+      if constexpr (flip) gained += weight * other[i];
       slope += load_as<Lanes>(&s.x.slope[i][k]) * node[i];
       moment += load_as<Lanes>(&s.x.moment[i][k]) * node[i];
     }
     const Lanes weight = load_as<Lanes>(&s.y.weight[j][k]);
     sum.value += weight * value;
+    if constexpr (flip) sum.gained += weight * gained;
     sum.slope_x += weight * slope;
     sum.moment_x += weight * moment;
     sum.slope_y += load_as<Lanes>(&s.y.slope[j][k]) * value;
     sum.moment_y += load_as<Lanes>(&s.y.moment[j][k]) * value;
-  }
-  return sum;
-}
-
-/// Sum over the nodes w v, of the particles from k on.
-[[gnu::noinline]] Lanes sum_values(const Tile& field, const LaneCells& cells, const Splines& s, int k)
-{
-  Lanes sum{};
-#pragma GCC unroll 4
-  for (int j = 0; j < 4; ++j)
-  {
-    Lanes node[4], value{};
-    cells.pick(field, j, node);
-#pragma GCC unroll 4
-    for (int i = 0; i < 4; ++i) value += load_as<Lanes>(&s.x.weight[i][k]) * node[i];
-    sum += load_as<Lanes>(&s.y.weight[j][k]) * value;
   }
   return sum;
 }
@@ -146,19 +134,19 @@ public:
   ///
   /// and with FLIP v_p + sum w (v* - P/m) for the velocity that they keep. Returns v, times the factors of
   /// the splines.
-  [[gnu::always_inline]] inline Lanes apply(const LaneCells& cells, const Splines& s, int k, int q, int n,
+  [[gnu::always_inline]] inline Lanes apply(const LaneNodes& nodes, const Splines& s, int k, int q, int n,
                                             const MotionFields& particles, Extremes& greatest) const
   {
     const auto [dt, spacing, flip] = transfer_;
     const double affine = 3 * inverse_weights / spacing, slope = inverse_slopes / spacing; // D = h^2 / 3
-    const NodeSums r = sum_nodes(velocity_, cells, s, k);
+    const NodeSums r = flip ? sum_nodes<true>(velocity_, gained_, nodes, s, k)
+                            : sum_nodes<false>(velocity_, gained_, nodes, s, k);
     greatest.take(r);
     const Lanes v = without_weights(r.value);
     double* const x = &particles.position[q];
     store_first(x, load_first(x, n) + dt * v, n);
     double* const velocity = &particles.velocity[q];
-    store_first(velocity,
-                flip ? load_first(velocity, n) + without_weights(sum_values(gained_, cells, s, k)) : v, n);
+    store_first(velocity, flip ? load_first(velocity, n) + without_weights(r.gained) : v, n);
     store_first(&particles.affine_x[q], affine * r.moment_x, n);
     store_first(&particles.affine_y[q], affine * r.moment_y, n);
     store(&particles.gradient_x[k], slope * r.slope_x);
@@ -204,12 +192,12 @@ double update_block(Domain& domain, const OccupiedBlock& occupied, double dt)
                    const Prefetch next(p, begin, &p.stress_zz[begin], state(0), state(1));
                    for (int k = 0; k < count; k += lanes)
                    {
-                     const LaneCells cells(&at.node[k]);
+                     const LaneNodes nodes(&at.node[k]);
                      const int q = begin + k, n = std::min(lanes, count - k);
                      for (int quarter = (k & 7) / 2; quarter < ((k & 7) + lanes) / 2; ++quarter)
                        next.fetch(k & ~7, quarter);
-                     poison += 0.0 * x.apply(cells, splines, k, q, n, of_x, greatest);
-                     y.apply(cells, splines, k, q, n, of_y, greatest);
+                     poison += 0.0 * x.apply(nodes, splines, k, q, n, of_x, greatest);
+                     y.apply(nodes, splines, k, q, n, of_y, greatest);
                    }
                    update_particles(domain, material, begin, count, L, dt);
                  });

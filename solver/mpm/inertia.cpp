@@ -1,6 +1,7 @@
 #include "solver/mpm/inertia.hpp"
 
 #include "solver/mpm/domain.hpp"
+#include "solver/mpm/simd.hpp"
 
 namespace mpm
 {
@@ -20,90 +21,98 @@ inline Lanes greater(const Lanes& a, const Lanes& b)
 }
 
 /// How even the masses of nodes and of the two beside each are: 1 where they hardly differ, 0 at a surface.
-template <int step>
-Lanes evenness_of(const double* m)
+Lanes evenness_of(const Lanes& before, const Lanes& own, const Lanes& after)
 {
-  const Lanes before = load_as<Lanes>(m - step), own = load_as<Lanes>(m), after = load_as<Lanes>(m + step);
   const Lanes least = lesser(lesser(before, own), after), greatest = greater(greater(before, own), after);
   if (bits(above(all_above * greatest, least)) == 0) return Lanes{} + 1;
   const Lanes ratio = least / greater(greatest, Lanes{} + std::numeric_limits<double>::min());
   return greater(lesser((ratio - none_below) * (1 / (all_above - none_below)), Lanes{} + 1), Lanes{});
 }
 
-/// The rows of a tile from the one below its block to the one above: what links of its nodes depend on.
-constexpr int first = tile_index(-tile_margin, -1), end = tile_index(-tile_margin, block_cells + 1);
-static_assert((end - first) % lanes == 0);
-
-/// links[i] = m_ij / 3 of each node i of a tile and the node j = i + step, the next one of the row or column.
-/// A link is as even as the less even of its nodes. Where `face` is not zero, at the base's face, unequal
-/// masses do not fade it: the face's dashpots hold the light nodes.
-template <int step>
-void link(const Tile& mass, const Tile* face, Tile& links)
+/// m_ij / 3 of nodes i and their neighbours j. A link is as even as the less even of its nodes.
+Lanes link(const Lanes& mass, const Lanes& evenness, const Lanes& other_mass, const Lanes& other_evenness)
 {
-  Tile evenness;
-  const double* const m = mass.value.data();
-  double* const e = evenness.value.data();
-  for (int t = first; t < end; t += lanes)
-  {
-    const Lanes share = evenness_of<step>(m + t);
-    store(e + t, face ? chosen(above(load_as<Lanes>(&face->value[t]), Lanes{}), Lanes{} + 1, share) : share);
-  }
-  for (int t = end; t < end + step; ++t) e[t] = 0;
-  for (int t = first; t < end; t += lanes)
-  {
-    const auto both = [&](const double* of)
-    { return lesser(load_as<Lanes>(of + t), load_as<Lanes>(of + t + step)); };
-    store(&links.value[t], coefficient * both(m) * both(e));
-  }
+  return coefficient * lesser(mass, other_mass) * lesser(evenness, other_evenness);
 }
 
-/// Links of a block's nodes to the right and above, and the change of velocity by which they exchange
-/// momentum.
-struct Exchange
-{
-  Tile mass, across, up;
+constexpr int parts = block_cells / lanes; ///< vectors in a row of a block's nodes
 
-  /// Of the row of nodes that begins at t of the tile: sum_j m_ij / 3 (a_i - a_j), `change` being a dt.
-  Lanes sum(const Tile& change, int t) const
+/// The rows of nodes of a block and around it, vector by vector.
+struct Surroundings
+{
+  const Neighbours& around;
+
+  /// Part `part` (-1 to `parts`) of row `row` (-8 to 15) of a field, counted from the block's own first;
+  /// zeros where there is no block.
+  Lanes of(const NodeField& field, int row, int part) const
   {
-    constexpr int left = 1, below = tile_stride;
-    const auto at = [&](const Tile& tile, int node) { return load_as<Lanes>(&tile.value[node]); };
-    const Lanes a = at(change, t);
-    return at(across, t - left) * (a - at(change, t - left)) + at(across, t) * (a - at(change, t + left)) +
-           at(up, t - below) * (a - at(change, t - below)) + at(up, t) * (a - at(change, t + below));
+    const int y = row < 0 ? 0 : row < block_cells ? 1 : 2, x = part < 0 ? 0 : part < parts ? 1 : 2;
+    const int block = around[3 * y + x];
+    if (block < 0) return Lanes{};
+    return load_as<Lanes>(
+        &field[block * block_nodes + within_block(row) * block_cells + (part - (x - 1) * parts) * lanes]);
   }
 };
 
-void correct_block(Grid& g, int block)
+/// Links of nodes with those to the left and right, below and above.
+struct Links
 {
-  const int begin = block * block_nodes;
-  const auto own = g.linked_mass.begin() + begin;
-  if (std::all_of(own, own + block_nodes, [](double m) { return m <= 0; })) return;
-  const Neighbours& around = g.neighbours[block];
-  Exchange exchange;
-  Tile x, y, face;
-  read_tile(g, around, g.linked_mass, exchange.mass);
-  const bool faces = !g.face_dashpot_x.empty();
-  if (faces) read_tile(g, around, g.face_dashpot_x, face);
-  link<1>(exchange.mass, nullptr, exchange.across);
-  link<tile_stride>(exchange.mass, faces ? &face : nullptr, exchange.up);
-  read_tile(g, around, g.change_x, x);
-  read_tile(g, around, g.change_y, y);
-  for (int k = 0; k < block_nodes; k += lanes)
+  Lanes left, right, below, above;
+
+  /// sum_j m_ij / 3 (a_i - a_j), a dt being part `part` of row `row` of `change`.
+  Lanes exchanged(const Surroundings& at, const NodeField& change, int row, int part) const
   {
-    const int t = tile_index(k % block_cells, k / block_cells);
-    const Lanes m = load_as<Lanes>(&exchange.mass.value[t]);
-    const Selection linked = above(m, Lanes{});
-    const Lanes inverse = chosen(linked, 1 / chosen(linked, m, Lanes{} + 1), Lanes{});
-    double *const to_x = &g.velocity_x[begin + k], *const to_y = &g.velocity_y[begin + k];
-    store(to_x, load_as<Lanes>(to_x) + inverse * exchange.sum(x, t));
-    store(to_y, load_as<Lanes>(to_y) + inverse * exchange.sum(y, t));
+    const Lanes a = at.of(change, row, part);
+    return left * (a - previous_of(at.of(change, row, part - 1), a)) +
+           right * (a - next_of(a, at.of(change, row, part + 1))) +
+           below * (a - at.of(change, row - 1, part)) + above * (a - at.of(change, row + 1, part));
+  }
+};
+
+/// Corrects the columns of nodes of a block that one vector holds.
+void correct_part(Grid& g, int block, int part)
+{
+  const Surroundings at{g.neighbours[block]};
+  constexpr int beyond = 2, rows = block_cells + 2 * beyond; // two rows beyond the block take part
+  Lanes mass[rows], evenness[rows];
+  for (int k = 0; k < rows; ++k) mass[k] = at.of(g.linked_mass, k - beyond, part);
+  for (int k = 1; k < rows - 1; ++k) evenness[k] = evenness_of(mass[k - 1], mass[k], mass[k + 1]);
+  // At the base's face unequal masses do not fade the links along its dashpots, which hold the light nodes.
+  if (!g.face_dashpot_x.empty())
+    for (int k = 1; k < rows - 1; ++k)
+      evenness[k] =
+          chosen(above(at.of(g.face_dashpot_x, k - beyond, part), Lanes{}), Lanes{} + 1, evenness[k]);
+  for (int k = beyond; k < rows - beyond; ++k)
+  {
+    const int row = k - beyond;
+    const Lanes& own = mass[k];
+    const Selection linked = above(own, Lanes{});
+    if (bits(linked) == 0) continue;
+    const Lanes before = at.of(g.linked_mass, row, part - 1), after = at.of(g.linked_mass, row, part + 1);
+    const Lanes left = previous_of(before, own), right = next_of(own, after);
+    const Lanes even = evenness_of(left, own, right);
+    // Of the vectors beside only the nodes next to this one matter.
+    const Lanes even_before = evenness_of(previous_of(before, before), before, next_of(before, own));
+    const Lanes even_after = evenness_of(previous_of(own, after), after, next_of(after, after));
+    const Links links{link(own, even, left, previous_of(even_before, even)),
+                      link(own, even, right, next_of(even, even_after)),
+                      link(own, evenness[k], mass[k - 1], evenness[k - 1]),
+                      link(own, evenness[k], mass[k + 1], evenness[k + 1])};
+    const Lanes inverse = chosen(linked, 1 / chosen(linked, own, Lanes{} + 1), Lanes{});
+    const int node = block * block_nodes + row * block_cells + part * lanes;
+    double *const to_x = &g.velocity_x[node], *const to_y = &g.velocity_y[node];
+    store(to_x, load_as<Lanes>(to_x) + inverse * links.exchanged(at, g.change_x, row, part));
+    store(to_y, load_as<Lanes>(to_y) + inverse * links.exchanged(at, g.change_y, row, part));
   }
 }
 } // namespace
 
 void correct_inertia(Grid& g)
 {
-  g.for_each_block([&](int k) { correct_block(g, k); });
+  g.for_each_block(
+      [&](int block)
+      {
+        for (int part = 0; part < parts; ++part) correct_part(g, block, part);
+      });
 }
 } // namespace mpm

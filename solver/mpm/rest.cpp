@@ -1,4 +1,5 @@
 #include "solver/mpm/domain.hpp"
+#include "solver/mpm/tile.hpp"
 
 #include <algorithm>
 #include <cmath>

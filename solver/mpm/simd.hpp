@@ -102,12 +102,6 @@ inline void store_first(double* to, const Lanes& values, int count)
 {
   _mm512_mask_storeu_pd(to, _bzhi_u32(0xFF, count), values);
 }
-/// Lanes whose integer is the wanted one.
-inline Selection equal(const int* values, int wanted)
-{
-  return _mm256_cmpeq_epi32_mask(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(values)),
-                                 _mm256_set1_epi32(wanted));
-}
 /// Lanes that are greater than those of another vector; none that are no number.
 inline Selection above(const Lanes& values, const Lanes& than)
 {
@@ -123,10 +117,44 @@ inline Lanes chosen(Selection where, const Lanes& these, const Lanes& others)
 {
   return reinterpret_cast<Lanes>(_mm512_mask_blend_pd(where, others, these));
 }
-/// The number at `by` in the selected lanes, what was there in the others.
-inline Lanes replaced(const Lanes& values, Selection where, const double* by)
+/// Lanes that take four numbers each, one after the other, of what one register holds.
+struct LaneRun
 {
-  return reinterpret_cast<Lanes>(_mm512_mask_broadcastsd_pd(values, where, _mm_load_sd(by)));
+  int begin; ///< index of the register's first number
+  Selection who;
+  __m512i place; ///< of each lane's first number in the register
+
+  LaneRun() = default;
+  /// `first` are the indices of each lane's first number; lane `one` has a place in the register, and so have
+  /// those that begin up to three numbers after or one before.
+  LaneRun(const int* first, int one) : begin(std::max(first[one] - 1, 0))
+  {
+    const __m256i places = _mm256_sub_epi32(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(first)),
+                                            _mm256_set1_epi32(begin));
+    who = _mm256_cmple_epu32_mask(places, _mm256_set1_epi32(4));
+    place = _mm512_maskz_cvtepi32_epi64(0xFF, places);
+  }
+  /// Number i of those lanes, from numbers of which the first has index 0; what was there in the others.
+  Lanes taken(const Lanes& so_far, const double* from, int i) const
+  {
+    return reinterpret_cast<Lanes>(_mm512_mask_permutexvar_pd(
+        so_far, who, _mm512_add_epi64(place, _mm512_set1_epi64(i)), _mm512_loadu_pd(from + begin)));
+  }
+};
+/// What follows each number of a row; after the last one comes the first of the vector `after`.
+inline Lanes next_of(const Lanes& own, const Lanes& after)
+{
+  return __builtin_shufflevector(own, after, 1, 2, 3, 4, 5, 6, 7, 8);
+}
+/// The last two numbers of `before`, then the first of `own`.
+inline Lanes two_before(const Lanes& before, const Lanes& own)
+{
+  return __builtin_shufflevector(before, own, 6, 7, 8, 9, 10, 11, 12, 13);
+}
+/// What precedes each number of a row; in front of the first one is the last of the vector `before`.
+inline Lanes previous_of(const Lanes& before, const Lanes& own)
+{
+  return __builtin_shufflevector(before, own, 7, 8, 9, 10, 11, 12, 13, 14);
 }
 
 #else
@@ -197,10 +225,6 @@ inline void store_first(double* to, const Lanes& values, int count)
 #endif
   for (int k = 0; k < count; ++k) to[k] = values[k];
 }
-inline Selection equal(const int* values, int wanted)
-{
-  return Selection{values[0], values[1], values[2], values[3]} == wanted;
-}
 inline Selection above(const Lanes& values, const Lanes& than)
 {
   return values > than;
@@ -218,9 +242,32 @@ inline unsigned bits(const Selection& selected)
   for (int k = 0; k < 4; ++k) all |= selected[k] ? 1u << k : 0;
   return all;
 }
-inline Lanes replaced(const Lanes& values, const Selection& where, const double* by)
+struct LaneRun
 {
-  return where ? *by - Lanes{} : values;
+  int begin;
+  Selection who;
+
+  LaneRun() = default;
+  LaneRun(const int* first, int one)
+      : begin(first[one]), who(Selection{first[0], first[1], first[2], first[3]} == begin)
+  {
+  }
+  Lanes taken(const Lanes& so_far, const double* from, int i) const
+  {
+    return who ? from[begin + i] - Lanes{} : so_far;
+  }
+};
+inline Lanes next_of(const Lanes& own, const Lanes& after)
+{
+  return __builtin_shufflevector(own, after, 1, 2, 3, 4);
+}
+inline Lanes previous_of(const Lanes& before, const Lanes& own)
+{
+  return __builtin_shufflevector(before, own, 3, 4, 5, 6);
+}
+inline Lanes two_before(const Lanes& before, const Lanes& own)
+{
+  return __builtin_shufflevector(before, own, 2, 3, 4, 5);
 }
 inline Lanes greatest_of(const Lanes& so_far, const Lanes& value)
 {

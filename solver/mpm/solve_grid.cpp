@@ -1,4 +1,5 @@
 #include "solver/mpm/inertia.hpp"
+#include "solver/mpm/simd.hpp"
 #include "solver/mpm/step.hpp"
 
 #include <cmath>

@@ -103,8 +103,8 @@ TEST_CASE("An image stands opposite its parent and carries the mirrored stress a
   const Images sticking = make_images(domain, sticks), slipping = make_images(domain, slips);
   const Image& image = sticking.list.at(0);
   const ImageLoad &stuck = sticking.loads.at(0), &slid = slipping.loads.at(0);
-  CHECK(p.y[0] + image.offset.y() == Approx(2.75).epsilon(1e-14));
-  CHECK(image.offset.x() == 0);
+  CHECK(p.y[0] + image.offset[1] == Approx(2.75).epsilon(1e-14));
+  CHECK(image.offset[0] == 0);
   // Sigma* = S Sigma M with S = -1, M = diag(1, -1): [-xx, xy; -xy, yy].
   CHECK(stuck.stress_x[0] == -3 * V);
   CHECK(stuck.stress_y[0] == 7 * V);
