@@ -141,7 +141,7 @@ enum class Transfer
 struct FilterSettings
 {
   double time = 3;       ///< s, NullSpaceFilter::time
-  double strain = 0.003; ///< NullSpaceFilter::strain
+  double strain = 0.001; ///< NullSpaceFilter::strain
 };
 
 /// `seismic.inertia`: the mass in the equation of motion.

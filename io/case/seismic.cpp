@@ -146,11 +146,10 @@ FilterSettings read_filter(Section filter, Transfer transfer)
       settings.time,
       {"time", "in which velocities that the grid does not carry fade; 0: they are kept; with apic 0"},
       Dimension::time, Interval::not_negative());
-  settings.strain = filter.number_or(
-      settings.strain,
-      {"strain",
-       "plastic strain over which stresses that the grid does not carry fade; 0: they are kept; with apic 0"},
-      Dimension::none, Interval::not_negative());
+  settings.strain = filter.number_or(settings.strain,
+                                     {"strain", "plastic strain over which stresses and volumes that the "
+                                                "grid does not carry fade; 0: they are kept; with apic 0"},
+                                     Dimension::none, Interval::not_negative());
   return settings;
 }
 

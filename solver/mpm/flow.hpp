@@ -5,6 +5,7 @@
 #include "solver/mpm/domain.hpp"
 
 #include <algorithm>
+#include <type_traits>
 #include <vector>
 
 namespace mpm
@@ -67,7 +68,7 @@ public:
     }
   }
   bool holds(int material) const { return is_[material]; }
-  /// Calls f(particle) for those of a block that are not torn apart.
+  /// Calls f(particle), or f(particle, material), for those of a block that are not torn apart.
   template <class Function>
   void for_each(const OccupiedBlock& occupied, const Function& f) const
   {
@@ -77,7 +78,13 @@ public:
       const std::vector<double>* opening = domain_.materials[range.material].field("opening");
       const int first = domain_.material_begin[range.material];
       for (int p = range.begin; p < range.end; ++p)
-        if (opening == nullptr || (*opening)[p - first] <= 0) f(p);
+      {
+        if (opening != nullptr && (*opening)[p - first] > 0) continue;
+        if constexpr (std::is_invocable_v<Function, int, int>)
+          f(p, range.material);
+        else
+          f(p);
+      }
     }
   }
 
@@ -101,8 +108,10 @@ void average_flow(Domain& domain, const Flow& flow);
 /// Takes (1 - exp(-e/strain)) (1 - A)^2 sigma from the particles' stresses, e being the plastic strain since
 /// the last time averaged over the nodes; A fits an affine field to the stresses of one ground around each
 /// node and reads these fits at the particles. Ground beside what flows takes part, since it is strained by
-/// the same nodes; what flows nowhere near stays as it is, to the last bit. Ground that is torn apart takes
-/// no part, and none is put under tension by it. The elastic energy that it takes is booked as the
+/// the same nodes; what flows nowhere near stays as it is, to the last bit. Volumes go with the mean stress
+/// as they do in elastic ground, dV / V = d sigma_m / K: with the pressure alone taken away nothing would
+/// hold them, and in a slide they would drift apart by fifths, some to nothing. Ground that is torn apart
+/// takes no part, and none is put under tension by it. The elastic energy that it takes is booked as the
 /// transfers'.
 void filter_stresses(Domain& domain, const Flow& flow);
 

@@ -1,6 +1,8 @@
 #include "solver/mpm/chunk.hpp"
 #include "solver/mpm/flow.hpp"
 
+#include <cmath>
+
 namespace mpm
 {
 namespace
@@ -204,13 +206,15 @@ void filter_stresses(Domain& domain, const Flow& flow)
         [&](const OccupiedBlock& occupied)
         {
           ground.for_each(occupied,
-                          [&](int k)
+                          [&](int k, int material)
                           {
                             const double share = 1 - std::exp(-flowed[k] / domain.settings.filter.strain);
                             const double trace = p.stress_xx[k] + p.stress_yy[k] + p.stress_zz[k],
                                          less = share * (rest[0][k] + rest[1][k] + rest[2][k]);
                             if (trace < 0 && trace - less > 0) return; // pressure, and would be tension
                             for (int c = 0; c < 4; ++c) (*stresses(p)[c])[k] -= share * rest[c][k];
+                            p.volume[k] *=
+                                std::exp(-less / (3 * domain.materials[material].elastic().bulk_modulus()));
                           });
         });
   }

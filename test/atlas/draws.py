@@ -53,7 +53,7 @@ def method(rng):
     seismic = {"transfer": transfer, "inertia": rng.choice(["lumped", "consistent"]), "rest_below": rng.choice(["0 m/s", "1 mm/s", "10 m/s"]),
                "leaving": rng.choice(["remove", "stop"])}
     if transfer == "flip":
-        seismic["filter"] = {"time": f"{power(rng, -4, 2)!r} s", "strain": rng.choice([0, 0.003, 0.1])}
+        seismic["filter"] = {"time": f"{power(rng, -4, 2)!r} s", "strain": rng.choice([0, 0.001, 0.1])}
     base = rng.choice(["compliant", "compliant", "compliant", "fixed"])
     if base == "compliant":
         seismic["base"] = {"spring": rng.choice(["auto", "none", f"{power(rng, -3, 1)!r} s"])}

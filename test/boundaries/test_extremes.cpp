@@ -56,7 +56,7 @@ TEST_CASE("Ground without any strength flows, and never faster than its weight a
     sort_particles(domain);
     domain.settings.gravity_y = -9.81;
     domain.settings.flip = true;
-    domain.settings.filter = {3, 0.003};
+    domain.settings.filter = {3, 0.001};
     open_energy_balance(domain);
     const double dt = 0.5 / domain.materials[0].elastic().pressure_speed();
     for (int k = 0; k < 800; ++k)

@@ -198,8 +198,9 @@ TEST_CASE(
   CHECK(summary["slide"]["left_area"].get<double>() > 1);
   CHECK(summary["energy"]["departed"].get<double>() > 0);
   // Neither flung about by the side's images, nor braked: what the transfers take is no more than gravity
-  // gave.
-  CHECK(summary["energy"]["transfer"].get<double>() < -summary["energy"]["gravitational"].get<double>());
+  // gave, less what images gave to nodes with next to no mass, of which particles feel nothing.
+  const auto energy = [&](const char* term) { return summary["energy"][term].get<double>(); };
+  CHECK(energy("transfer") - energy("static_reaction") < -energy("gravitational"));
   CHECK_THAT(summary["warnings"].dump(), Contains("have passed the right side"));
 
   REQUIRE(bench.run_seismic("two", {"--threads", "2"}).code == 0);

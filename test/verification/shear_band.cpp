@@ -106,6 +106,7 @@ BandEnergy shear_band(VonMises law, double degrees, BandPosition position, doubl
     residual += volume * law.residual * strain;
     if (std::fabs(x * cosine + y * sine) > 0.5 * length) continue;
     result.slip += volume / length * std::sqrt(3.0) * strain;
+    result.dilation = std::max(result.dilation, std::fabs(p.volume[k] / volume - 1));
     result.softening += volume / length * (domain.materials[0].dissipated(k) - law.residual * strain);
   }
   // An averaged strain does not tell what a particle has dissipated; the energy balance does.

@@ -23,6 +23,7 @@ struct BandEnergy
 {
   double slip;      ///< plastic, m
   double softening; ///< dissipated above the residual strength, in the middle of the band, J/m2
+  double dilation;  ///< greatest change of a particle's volume there, over its volume
 };
 
 /// A square box of the law, 24 cells or more wide, whose rim moves as two rigid halves that slide past each
