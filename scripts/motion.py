@@ -5,7 +5,7 @@
     scripts/motion SURFACE.AT2 --band 0.1,15 --column LAYERS.csv --out OUTCROP.AT2
     scripts/motion RECORD.AT2 --match TARGET.csv --out MATCHED.AT2
 
-Reads accelerations in PEER's format. Steps are taken in the order of --help, whatever that of the command line. Beside OUT.AT2 are written
+Reads accelerations in every format that mpm-seismic reads. Steps are taken in the order of --help, whatever that of the command line. Beside OUT.AT2 are written
 OUT.csv (time and acceleration), OUT-spectrum.csv and OUT.png, before and after; the heads tell what was done.
 """
 import argparse
@@ -64,6 +64,9 @@ def parse_arguments(given):
     size.add_argument("--scale", type=float, metavar="F", help="a factor")
     size.add_argument("--pga", type=float, metavar="G", help="the greatest acceleration (g)")
     size.add_argument("--sa", type=float, nargs=2, metavar=("T", "G"), help="5 %% Sa (g) at a period (s)")
+    for name, meaning in (("dt", "time step in s of records that do not tell it"), ("unit", "their unit, likewise"), ("format", "their format, where it does not show"),
+                          ("component", "of files that hold several; E,N of two")):
+        parser.add_argument(f"--record-{name}", metavar=name[0].upper(), help=meaning)
     parser.add_argument("--out", type=Path, required=True, metavar="OUT.AT2")
     parser.add_argument("--force", action="store_true", help="replace files that are there")
     options = parser.parse_args(given)
@@ -94,11 +97,13 @@ def target_of(path):
 
 def record_of(options):
     """The record in its direction, and its components (m/s2), if there are two."""
-    title, east, dt = peer.acceleration(options.east)
+    told = [word for name in ("dt", "unit", "format") if (value := getattr(options, f"record_{name}")) for word in (f"--record-{name}", value)]
+    parts = [["--record-component", part] if part else [] for part in (options.record_component or ",").split(",")]
+    title, east, dt = peer.acceleration(options.east, told + parts[0])
     name = os.path.basename(options.east)
     if options.north is None:
         return motion_steps.Motion(east, dt, done=(f"of {name}, {title}",)), None
-    _, north, other = peer.acceleration(options.north)
+    _, north, other = peer.acceleration(options.north, told + parts[-1])
     if dt != other or east.size != north.size:
         raise peer.BadRecord(f"the records differ: {east.size} values of {dt} s and {north.size} of {other} s")
     azimuth, words = options.azimuth, f"of {name} as east and {os.path.basename(options.north)} as north, {title}"

@@ -1,6 +1,8 @@
-"""Records in the format of PEER: a header with NPTS and DT, then the values."""
+"""Records in the format of PEER: a header with NPTS and DT, then the values; others as the programs read them."""
 import os
 import re
+import subprocess
+import sys
 
 import numpy as np
 
@@ -12,10 +14,24 @@ class BadRecord(Exception):
     """Says what is wrong with a record; the program ends with 65."""
 
 
-def read(path):
-    """Header lines and values of a PEER file, and its time step in s."""
-    with open(path, encoding="latin-1") as file:
-        lines = file.read().splitlines()
+def text_of(path, words):
+    """A record as PEER writes it: what is none of PEER's, or comes with more words, mpm-seismic reads."""
+    if str(path).upper().endswith(".AT2") and not words:
+        with open(path, encoding="latin-1") as file:
+            return file.read()
+    with open(path, "rb"):
+        pass  # says by itself why it cannot be read
+    from programs import PROGRAMS  # looked for only where they are wanted
+    read = subprocess.run([PROGRAMS / "mpm-seismic", "--print-record", "--motion", path, *words], capture_output=True, text=True, check=False)
+    if read.returncode:
+        raise BadRecord(read.stderr.strip().removeprefix("mpm-seismic: "))
+    print(read.stderr, end="", file=sys.stderr)
+    return read.stdout
+
+
+def read(path, words=()):
+    """Header lines and values of a PEER file, and its time step in s; of others as `words`, options of mpm-seismic, tell."""
+    lines = text_of(path, words).splitlines()
     for k, line in enumerate(lines[:10]):
         count = re.search(r"NPTS\s*=\s*(\d+)", line, re.IGNORECASE) or re.match(r"\s*(\d+)\s+[\d.]+\s+NPTS", line)
         step = re.search(r"DT\s*=\s*([\d.E+-]+)\s*([A-Z]*)", line, re.IGNORECASE) \
@@ -23,7 +39,7 @@ def read(path):
         if count and step:
             break
     else:
-        raise BadRecord(f"{path}: no header line with NPTS and DT; give PEER's .AT2")
+        raise BadRecord(f"{path}: no header line with NPTS and DT, as PEER's .AT2 has one")
     if step[2].upper() not in ("", "S", "SEC", "SECS", "SECOND", "SECONDS"):
         raise BadRecord(f"{path}: DT is in {step[2]}; write it in SEC")
     try:
@@ -37,9 +53,9 @@ def read(path):
     return lines[:k], values[: int(count[1])], float(step[1])
 
 
-def acceleration(path):
-    """Title, acceleration (m/s2) and step (s) of an .AT2 file."""
-    header, values, step = read(path)
+def acceleration(path, words=()):
+    """Title, acceleration (m/s2) and step (s) of a record."""
+    header, values, step = read(path, words)
     unit = re.search(r"ACCELERATION.*UNITS?\s+OF\s+(\S+)", header[-1] if header else "", re.IGNORECASE)
     if not unit or unit[1].upper() not in UNITS:
         raise BadRecord(f"{path}: '{header[-1] if header else ''}' tells of no acceleration in a known unit; "

@@ -3,9 +3,13 @@
 // third states the unit in prose and the last tells number of values and time step in one of two forms,
 // then the values.
 
+#include "boundaries/ground_motion/measures.hpp"
+#include "io/common/printable.hpp"
 #include "io/records/formats.hpp"
 
 #include <algorithm>
+#include <filesystem>
+#include <fmt/format.h>
 
 namespace mpm::records
 {
@@ -215,3 +219,27 @@ Record read_peer(const RecordSource& source, const std::vector<Line>& lines, con
   return record;
 }
 } // namespace mpm::records
+
+namespace mpm
+{
+std::string peer_text(const Record& record)
+{
+  struct Kind
+  {
+    std::string_view name, unit;
+    double size; ///< of the unit, in SI
+  };
+  constexpr Kind kinds[] = {
+      {"ACCELERATION", "G", standard_gravity}, {"VELOCITY", "CM/S", 0.01}, {"DISPLACEMENT", "CM", 0.01}};
+  const Kind& kind = kinds[static_cast<int>(record.quantity)];
+  const std::string component = record.component.empty() ? "" : ", component " + record.component;
+  std::string text =
+      fmt::format("seismpm\n{}{}, in {}\n{} TIME SERIES IN UNITS OF {}\nNPTS= {}, DT= {:.9g} SEC\n",
+                  std::filesystem::path(record.source).filename().string(), component, record.unit, kind.name,
+                  kind.unit, record.values.size(), record.dt);
+  for (std::size_t k = 0; k < record.values.size(); ++k)
+    text += fmt::format("{:17.8E}{}", record.values[k] / kind.size,
+                        k % 5 == 4 || k + 1 == record.values.size() ? "\n" : "");
+  return printable(text);
+}
+} // namespace mpm

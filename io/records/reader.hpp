@@ -36,4 +36,8 @@ Record read_record(const RecordSource& source);
 /// Reads a record from text, e.g. one kept in a result file; source.file serves the messages and, by its
 /// extension (.AT2, .VT2, .DT2), the quantity of a PEER record.
 Record parse_record(std::string_view text, const RecordSource& source);
+
+/// A record as a file in PEER's format, for programs that read no other: what it is of, then its values in g,
+/// cm/s or cm, to 9 digits.
+std::string peer_text(const Record& record);
 } // namespace mpm

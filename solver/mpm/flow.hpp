@@ -100,7 +100,7 @@ void follow_flow(Domain& domain, double dt);
 /// Spreads the plastic strain since the last time over the width l of a band (Elastic::averaging_length of
 /// the law): each particle gets the mean over the disc of diameter l around its cell, of the particles of its
 /// own ground. A band then softens by its slip, slip / (sqrt(3) l), wherever and in however few cells it
-/// runs: what it dissipates is within 11 % of what the displacement of softening means, 16 % along a row of
+/// runs: what it dissipates is within 7 % of what the displacement of softening means, 14 % along a row of
 /// nodes (cases/verification/shear_band; nonlocal softening: Bazant & Jirasek, J. Eng. Mech. 128 (2002)
 /// 1119). What has been dissipated stays.
 void average_flow(Domain& domain, const Flow& flow);

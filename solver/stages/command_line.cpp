@@ -5,7 +5,9 @@
 #include "io/case/schema.hpp"
 #include "io/case/units.hpp"
 #include "io/common/error.hpp"
+#include "io/common/printable.hpp"
 #include "io/common/suggestion.hpp"
+#include "io/records/reader.hpp"
 #include "solver/stages/completion.hpp"
 
 #include <CLI/CLI.hpp>
@@ -23,7 +25,7 @@ constexpr int most_threads = 4096;
 struct Typed
 {
   std::string scale, record_dt, threads, max_wall, keys;
-  bool quiet = false, verbose = false, schema = false, example = false;
+  bool quiet = false, verbose = false, schema = false, example = false, print_record = false;
 };
 
 [[noreturn]] void refuse(const std::string& option, const std::string& why)
@@ -81,6 +83,8 @@ void add_seismic_options(CLI::App& app, Options& options, Typed& typed)
                  "component of a --vertical that holds several")
       ->type_name("C");
   app.add_option("--scale", typed.scale, "factor on the motion, on top of the case's")->type_name("F");
+  app.add_flag("--print-record", typed.print_record,
+               "print the record of --motion in PEER's format, on stdout; run nothing");
 }
 
 /// Options that both programs have.
@@ -212,6 +216,19 @@ void print_keys(const std::string& path)
   if (path.empty()) std::cout << "\nUnits:\n" << units_text();
 }
 
+/// Answers --print-record, without a case.
+void print_record(const Options& options)
+{
+  if (options.motion.empty()) refuse("--print-record", "prints the record of --motion; give --motion FILE");
+  RecordSource source{.file = options.motion, .dt = options.record_dt, .unit = options.record_unit};
+  source.component = options.record_component;
+  if (!options.record_format.empty()) source.format = options.record_format;
+  const Record record = read_record(source);
+  for (const auto* said : {&record.notes, &record.warnings})
+    for (const std::string& text : *said) std::cerr << printable(text) << '\n';
+  std::cout << peer_text(record) << std::flush;
+}
+
 /// Numbers, times and lists; the library has read words and files already.
 void read_values(const CLI::App& app, const Typed& typed, Options& options)
 {
@@ -275,6 +292,12 @@ try
     return exit_code::done;
   }
   refuse_no_values(app);
+  if (typed.print_record)
+  {
+    read_values(app, typed, options);
+    print_record(options);
+    return exit_code::done;
+  }
   if (!app.count("CASE")) refuse("CASE", "is missing: give a case file; see --help");
   read_values(app, typed, options);
   check_pairs(app, typed, options);

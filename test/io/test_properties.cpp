@@ -207,3 +207,23 @@ TEST_CASE("twice the record is twice the motion to the last bit, whatever is don
         CHECK(b.report.recorded.pga == 2 * a.report.recorded.pga);
       }
 }
+
+TEST_CASE("a record of any format is read again from what is printed of it", "[io]")
+{
+  for (const Sample& sample : samples())
+  {
+    INFO(sample.source.file);
+    const Record record = parse_record(sample.text, sample.source);
+    const Record again = parse_record(peer_text(record), {.file = "printed.txt"});
+    CHECK(again.quantity == record.quantity);
+    CHECK(again.dt == Approx(record.dt).epsilon(1e-8)); // 9 digits
+    REQUIRE(again.values.size() == record.values.size());
+    double apart = 0, greatest = 0;
+    for (std::size_t k = 0; k < record.values.size(); ++k)
+    {
+      apart = std::max(apart, std::fabs(again.values[k] - record.values[k]));
+      greatest = std::max(greatest, std::fabs(record.values[k]));
+    }
+    CHECK(apart < 1e-8 * greatest);
+  }
+}

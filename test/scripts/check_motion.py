@@ -252,6 +252,23 @@ def read_back(folder):
     return max(errors), 1e-6
 
 
+def other_formats(folder):
+    """Two components that PEER did not write, in one table and in columns of their own, are turned as PEER's are: to the 9 digits between."""
+    if not (PROGRAMS / "mpm-seismic").exists():
+        return "the programs are not built: cmake --build --preset release"
+    east, north = pulse(grid()), pulse(grid(), 9.0, 3.0)
+    np.savetxt(folder / "east.txt", 100 * east)
+    np.savetxt(folder / "north.txt", 100 * north)
+    unit = ("--record-dt", DT, "--record-unit", "gal", "--record-format", "column")
+    code, said = command(folder / "east.txt", folder / "north.txt", "--azimuth", 30, *unit, "--out", folder / "turned.AT2")
+    if code:
+        print(said)
+        return float(code), 0
+    wanted = steps.along(east, north, 30.0)
+    wrong = command(folder / "east.txt", "--out", folder / "unknown.AT2")[0] != 65  # neither step nor unit is known
+    return wrong + np.abs(peer.acceleration(folder / "turned.AT2")[1] - wanted).max() / np.abs(wanted).max(), 1e-6
+
+
 def refusals(folder):
     """Records, layers and spectra that are not what they seem are refused (65), what is missing (66), and wrong words (64)."""
     head = "RECORD\nEVENT\nACCELERATION TIME SERIES IN UNITS OF {}\nNPTS= {}, DT= {}\n{}\n"
@@ -278,7 +295,7 @@ def checks():
     """Name and (error, tolerance) of every check."""
     for check in (turned, rotd, cut, filtered, straight, tapered, resampled, scaled, damped_layer, shifted, there_and_back, loud, wavelet, matched):
         yield check.__doc__.split("\n")[0], check()
-    for check in (written, read_back, refusals):
+    for check in (written, read_back, other_formats, refusals):
         with tempfile.TemporaryDirectory() as folder:
             yield check.__doc__, check(Path(folder))
 
