@@ -1,8 +1,8 @@
 #include "io/results/frames.hpp"
+#include "test/read_json.hpp"
 #include "test/temporary_folder.hpp"
 
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 
 using namespace mpm;
 using namespace mpm::test;
@@ -118,7 +118,7 @@ TEST_CASE("the series file names every frame with its time", "[io]")
 {
   const TemporaryFolder folder;
   write_series(folder.path(), {{frame_name(0), 0.0}, {frame_name(1), 0.5}});
-  const auto series = nlohmann::json::parse(contents(folder / "frames.hdf.series"));
+  const auto series = read_json(folder / "frames.hdf.series");
   CHECK(series["file-series-version"] == "1.0");
   CHECK(series["files"].size() == 2);
   CHECK(series["files"][1]["name"] == "frame-00001.hdf");

@@ -1,10 +1,9 @@
 #pragma once
 // A block of rock that a motion enters, and runs of it.
 
+#include "test/read_json.hpp"
 #include "test/stages/programs.hpp"
 #include "test/stages/results.hpp"
-
-#include <nlohmann/json.hpp>
 
 namespace mpm::test
 {
@@ -50,10 +49,7 @@ public:
   {
     return bench_.run(name, arguments);
   }
-  nlohmann::json summary(const std::string& out) const
-  {
-    return nlohmann::json::parse(contents(bench_ / out / "summary.json"));
-  }
+  nlohmann::json summary(const std::string& out) const { return read_json(bench_ / out / "summary.json"); }
   /// Motion `name` in another unit and step.
   Arguments record(const std::string& name, const std::string& unit = "m/s2",
                    const std::string& dt = "0.01") const

@@ -3,9 +3,8 @@
 #include "solver/stages/command_line.hpp"
 
 #include "io/common/error.hpp"
+#include "test/read_json.hpp"
 #include "test/stages/programs.hpp"
-
-#include <nlohmann/json.hpp>
 
 using namespace mpm;
 using namespace mpm::test;
@@ -165,7 +164,7 @@ TEST_CASE("a motion scaled away is warned of", "[stages]")
   const Ending ending = bench.run("mpm-seismic", still);
   CHECK(ending.code == 0);
   CHECK_THAT(ending.said, Contains("warning: ") && Contains("the scale is 0: this motion is not applied"));
-  const auto summary = nlohmann::json::parse(contents(bench / "out/summary.json"));
+  const auto summary = read_json(bench / "out/summary.json");
   CHECK_THAT(summary["warnings"].dump(), Contains("the scale is 0"));
 }
 

@@ -1,6 +1,7 @@
 // Ground that leaves the model: by hand, and in the programs.
 
 #include "solver/stages/departures.hpp"
+#include "test/read_json.hpp"
 #include "test/stages/ground.hpp"
 #include "test/stages/programs.hpp"
 #include "test/stages/results.hpp"
@@ -193,7 +194,7 @@ TEST_CASE(
   REQUIRE(whole.code == 0);
   CHECK_THAT(whole.said, Contains("ground passes the right side and leaves the model") &&
                              Contains("have passed the right side") && !Contains("does not close"));
-  const auto summary = nlohmann::json::parse(contents(bench / "whole" / "summary.json"));
+  const auto summary = read_json(bench / "whole" / "summary.json");
   CHECK(summary["slide"]["toe"].get<double>() < 34 + 1.5); // the side, a cell, and its own motion
   CHECK(summary["slide"]["left_area"].get<double>() > 1);
   CHECK(summary["energy"]["departed"].get<double>() > 0);
@@ -224,6 +225,6 @@ TEST_CASE(
   const Ending stopped = bench.run_seismic("stopped", {"--set", "seismic.leaving=stop"});
   CHECK(stopped.code == 0);
   CHECK_THAT(stopped.said, Contains("the run ends at t = "));
-  const auto end = nlohmann::json::parse(contents(bench / "stopped" / "summary.json"));
+  const auto end = read_json(bench / "stopped" / "summary.json");
   CHECK(end["time"].get<double>() < 4.9);
 }

@@ -2,10 +2,9 @@
 // bit has flipped. Whatever happens, the same command again ends with the results of a run that nothing
 // befell, or says why not. A part of the whole campaign, which is test/campaign/campaign.py.
 
+#include "test/read_json.hpp"
 #include "test/stages/programs.hpp"
 #include "test/stages/results.hpp"
-
-#include <nlohmann/json.hpp>
 
 #include <random>
 
@@ -89,8 +88,8 @@ struct Campaign : Bench
     for (const auto& entry : fs::directory_iterator(*this / "hurt"))
       if (entry.path().extension() == ".unusable") fs::remove(entry.path());
     check_same_results(*this / whole, *this / "hurt");
-    const auto summary = nlohmann::json::parse(contents(*this / "hurt/summary.json")),
-               expected = nlohmann::json::parse(contents(*this / whole / "summary.json"));
+    const auto summary = read_json(*this / "hurt/summary.json"),
+               expected = read_json(*this / whole / "summary.json");
     for (const char* key : {"exit", "time", "steps", "dt", "slide", "gauges", "energy", "warnings"})
       CHECK(summary.at(key) == expected.at(key));
     CHECK_THAT(run_seismic("hurt", more).said, Contains("finished already"));

@@ -2,10 +2,9 @@
 
 #include "io/common/printable.hpp"
 #include "solver/stages/slide_report.hpp"
+#include "test/read_json.hpp"
 #include "test/stages/programs.hpp"
 #include "test/stages/results.hpp"
-
-#include <nlohmann/json.hpp>
 
 #include <set>
 
@@ -35,7 +34,7 @@ TEST_CASE("the option --check answers on stdout and tells how long the static st
              Contains("Arias") && Contains("steps for"));
 
   bench.make_static();
-  const auto summary = nlohmann::json::parse(contents(bench / "static/summary.json"));
+  const auto summary = read_json(bench / "static/summary.json");
   const auto steps_after = [&](const std::string& words)
   { return std::stod(static_stage.substr(static_stage.find(words) + words.size())); };
   const double steps = summary["steps"];
@@ -73,7 +72,7 @@ TEST_CASE("the log of a seismic run ends with the slide", "[stages]")
                "displacement: 0.2 m", "displacement: 0.05 m"));
   REQUIRE(bench.run_static("static", {"--fresh"}).code == 0);
   REQUIRE(bench.run_seismic("flows", {"--set", "seismic.duration=2.5 s"}).code == 0);
-  const auto slide = nlohmann::json::parse(contents(bench / "flows/summary.json"))["slide"];
+  const auto slide = read_json(bench / "flows/summary.json")["slide"];
   INFO(slide.dump());
   REQUIRE(slide["moved_area"] > 0);
   const std::string log = contents(bench / "flows/log.txt");
@@ -133,7 +132,7 @@ TEST_CASE("names of a case and of its files are data: they lead nowhere, and a t
     CHECK_THAT(said, Contains("stage"));
   }
   CHECK_THAT(contents(bench / "seismic/log.txt"), Contains("\\x1b[2J\\xe9.txt"));
-  CHECK(nlohmann::json::parse(contents(bench / "seismic/summary.json")).at("exit") == 0);
+  CHECK(read_json(bench / "seismic/summary.json").at("exit") == 0);
   std::set<std::string> there;
   for (const auto& entry : fs::directory_iterator(bench / ".")) there.insert(entry.path().filename());
   CHECK(there == std::set<std::string>{"case.yaml", "shake.txt", "said.txt", "static", "seismic", name});

@@ -1,5 +1,6 @@
 // The motion that a run applies is the one that it reports.
 
+#include "test/read_json.hpp"
 #include "test/stages/block.hpp"
 #include "test/stages/results.hpp"
 
@@ -123,12 +124,12 @@ TEST_CASE("the end of a run is a frame and a sample of the slide, whatever their
 {
   const Block b;
   REQUIRE(b.run("out", {"--set", "seismic.duration=0.57 s"}).code == 0);
-  const auto series = nlohmann::json::parse(contents(b / "out/frames.hdf.series"));
+  const auto series = read_json(b / "out/frames.hdf.series");
   CHECK(series["files"].size() == 4); // 0, 0.25, 0.5 and the end
   CHECK(series["files"].back()["time"].get<double>() == Approx(0.57));
   CHECK(open_complete(b / "out/history.h5").read_doubles("slide/time").back() == Approx(0.57));
   REQUIRE(b.run("even", {"--set", "seismic.duration=0.5 s"}).code == 0);
-  CHECK(nlohmann::json::parse(contents(b / "even/frames.hdf.series"))["files"].size() == 3);
+  CHECK(read_json(b / "even/frames.hdf.series")["files"].size() == 3);
 }
 
 TEST_CASE("a folder belongs to the motion as applied, not to the name of its record", "[stages]")

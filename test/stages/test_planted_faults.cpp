@@ -1,10 +1,9 @@
 // Faults that are planted in the state of a running stage (faults/plant.cpp): each has to end the run with 80
 // within a hundred steps, with a message that names a particle, and must leave no file that holds it.
 
+#include "test/read_json.hpp"
 #include "test/stages/programs.hpp"
 #include "test/stages/results.hpp"
-
-#include <nlohmann/json.hpp>
 
 #include <regex>
 
@@ -80,7 +79,7 @@ TEST_CASE("Faults that are planted in the static stage are caught within a hundr
     check_caught(bench, "mpm-static-faulty", bench.static_arguments("out", fast), fault, "ground");
   for (const Fault& fault : of_columns)
     check_caught(bench, "mpm-static-faulty", bench.static_arguments("out", fast), fault, "left");
-  const auto summary = nlohmann::json::parse(contents(bench / "out/summary.json"));
+  const auto summary = read_json(bench / "out/summary.json");
   CHECK(summary["exit"] == 80);
 }
 
@@ -139,7 +138,7 @@ TEST_CASE("What has diverged is not drawn: no frame and no state holds a number 
   // The last step of the run: nothing looks at the stress after it but what writes it down.
   const Arguments brief{"--set", "seismic.duration=0.1 s"};
   REQUIRE(bench.run_seismic("whole", brief).code == 0);
-  const int steps = nlohmann::json::parse(contents(bench / "whole/summary.json"))["steps"];
+  const int steps = read_json(bench / "whole/summary.json")["steps"];
   const Planted planted("history", steps - 1);
   const Ending ending = bench.run("mpm-seismic-faulty", bench.seismic_arguments("out", brief));
   INFO(ending.said);

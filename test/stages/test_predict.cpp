@@ -4,10 +4,9 @@
 #include "solver/stages/occasions.hpp"
 #include "solver/stages/relaxation.hpp"
 #include "solver/stages/settling.hpp"
+#include "test/read_json.hpp"
 #include "test/stages/ground.hpp"
 #include "test/stages/programs.hpp"
-
-#include <nlohmann/json.hpp>
 
 using namespace mpm;
 using namespace mpm::test;
@@ -17,7 +16,7 @@ namespace
 {
 nlohmann::json summary_of(const Bench& bench, const std::string& run)
 {
-  return nlohmann::json::parse(contents(bench / run / "summary.json"));
+  return read_json(bench / run / "summary.json");
 }
 
 /// The number before some words of an answer.

@@ -1,10 +1,9 @@
 // The two programs from outside: what a script that starts them may rely on.
 
 #include "solver/mpm/phases.hpp"
+#include "test/read_json.hpp"
 #include "test/stages/programs.hpp"
 #include "test/stages/results.hpp"
-
-#include <nlohmann/json.hpp>
 
 using namespace mpm;
 using namespace mpm::test;
@@ -88,7 +87,7 @@ TEST_CASE("both stages come to the same cells by a profile of every case, whatev
   // What was chosen, and why: on the screen, in the summary and with the case. 5 m that can slide over 8
   // cells.
   CHECK_THAT(ending.said, Contains("profile quick: grid.spacing 0.6 m, 50 of which"));
-  const auto summary = nlohmann::json::parse(contents(bench / "run/summary.json"));
+  const auto summary = read_json(bench / "run/summary.json");
   CHECK(summary["profile"] == "quick");
   CHECK(summary["profile_chose"].size() == 2);
   const std::string resolved = contents(bench / "run/case-resolved.yaml");
@@ -131,7 +130,7 @@ TEST_CASE("a run tells what it carries of the motion, warns of what it loses, an
     std::vector<std::string> arguments{bench.path("case.yaml"), "--out", bench.path(out)};
     arguments.insert(arguments.end(), more.begin(), more.end());
     REQUIRE(bench.run("mpm-seismic", arguments).code == 0);
-    return nlohmann::json::parse(contents(bench / out / "summary.json"));
+    return read_json(bench / out / "summary.json");
   };
   const auto usual = summary_of("usual", {"--set", "seismic.transfer=apic"}),
              small = summary_of(
@@ -183,7 +182,7 @@ TEST_CASE("summary.json and the log tell where the time went", "[stages]")
   for (const std::string out : {"static", "out"})
   {
     INFO(out);
-    const auto summary = nlohmann::json::parse(contents(bench / out / "summary.json"));
+    const auto summary = read_json(bench / out / "summary.json");
     const double all = summary["ns_per_particle_step"].get<double>();
     const auto& phases = summary["phases"];
     CHECK(phases.size() == phase_names.size());

@@ -1,11 +1,10 @@
 // Runs that are cut short and gone on with, and the same on any number of threads.
 
 #include "solver/mpm/simd.hpp"
+#include "test/read_json.hpp"
 #include "test/sealed.hpp"
 #include "test/stages/programs.hpp"
 #include "test/stages/results.hpp"
-
-#include <nlohmann/json.hpp>
 
 using namespace mpm;
 using namespace mpm::test;
@@ -199,8 +198,7 @@ TEST_CASE("a motion that ends when the slide is self-driven ends the same in a r
   INFO(whole.said);
   REQUIRE(whole.code == 0);
   REQUIRE_THAT(whole.said, Contains("the slide is self-driven"));
-  const auto summary_of = [&](const std::string& out)
-  { return nlohmann::json::parse(contents(bench / out / "summary.json")); };
+  const auto summary_of = [&](const std::string& out) { return read_json(bench / out / "summary.json"); };
   const double ended = summary_of("whole")["motion_ended"].get<double>();
   CHECK(ended > 1.5); // a second of sliding, and half a second of fading
   CHECK(ended < 4.5); // the record goes on for 4.8 s
