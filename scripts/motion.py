@@ -72,6 +72,8 @@ def parse_arguments(given):
     options = parser.parse_args(given)
     if (options.north is None) != (options.azimuth is None and options.rotd is None):
         parser.error("two components go with --azimuth or --rotd, one component goes without")
+    if options.record_component and options.record_component.count(",") > (options.north is not None):
+        parser.error("--record-component names one component, or with two records E,N")
     if options.rotd and options.rotd[0] not in PERCENTILES:
         parser.error("--rotd takes 50 or 100")
     if options.out.suffix.upper() != ".AT2":
@@ -97,13 +99,13 @@ def target_of(path):
 
 def record_of(options):
     """The record in its direction, and its components (m/s2), if there are two."""
-    told = [word for name in ("dt", "unit", "format") if (value := getattr(options, f"record_{name}")) for word in (f"--record-{name}", value)]
+    given = [word for name in ("dt", "unit", "format") if (value := getattr(options, f"record_{name}")) for word in (f"--record-{name}", value)]
     parts = [["--record-component", part] if part else [] for part in (options.record_component or ",").split(",")]
-    title, east, dt = peer.acceleration(options.east, told + parts[0])
+    title, east, dt = peer.acceleration(options.east, given + parts[0])
     name = os.path.basename(options.east)
     if options.north is None:
         return motion_steps.Motion(east, dt, done=(f"of {name}, {title}",)), None
-    _, north, other = peer.acceleration(options.north, told + parts[-1])
+    _, north, other = peer.acceleration(options.north, given + parts[-1])
     if dt != other or east.size != north.size:
         raise peer.BadRecord(f"the records differ: {east.size} values of {dt} s and {north.size} of {other} s")
     azimuth, words = options.azimuth, f"of {name} as east and {os.path.basename(options.north)} as north, {title}"

@@ -1,7 +1,7 @@
 #include "solver/mpm/inertia.hpp"
 
 #include "solver/mpm/domain.hpp"
-#include "solver/mpm/simd.hpp"
+#include "solver/mpm/node_rows.hpp"
 
 namespace mpm
 {
@@ -35,32 +35,13 @@ Lanes link(const Lanes& mass, const Lanes& evenness, const Lanes& other_mass, co
   return coefficient * lesser(mass, other_mass) * lesser(evenness, other_evenness);
 }
 
-constexpr int parts = block_cells / lanes; ///< vectors in a row of a block's nodes
-
-/// The rows of nodes of a block and around it, vector by vector.
-struct Surroundings
-{
-  const Neighbours& around;
-
-  /// Part `part` (-1 to `parts`) of row `row` (-8 to 15) of a field, counted from the block's own first;
-  /// zeros where there is no block.
-  Lanes of(const NodeField& field, int row, int part) const
-  {
-    const int y = row < 0 ? 0 : row < block_cells ? 1 : 2, x = part < 0 ? 0 : part < parts ? 1 : 2;
-    const int block = around[3 * y + x];
-    if (block < 0) return Lanes{};
-    return load_as<Lanes>(
-        &field[block * block_nodes + within_block(row) * block_cells + (part - (x - 1) * parts) * lanes]);
-  }
-};
-
 /// Links of nodes with those to the left and right, below and above.
 struct Links
 {
   Lanes left, right, below, above;
 
   /// sum_j m_ij / 3 (a_i - a_j), a dt being part `part` of row `row` of `change`.
-  Lanes exchanged(const Surroundings& at, const NodeField& change, int row, int part) const
+  Lanes exchanged(const NodeRows& at, const NodeField& change, int row, int part) const
   {
     const Lanes a = at.of(change, row, part);
     return left * (a - previous_of(at.of(change, row, part - 1), a)) +
@@ -72,7 +53,7 @@ struct Links
 /// Corrects the columns of nodes of a block that one vector holds.
 void correct_part(Grid& g, int block, int part)
 {
-  const Surroundings at{g.neighbours[block]};
+  const NodeRows at{g.neighbours[block]};
   constexpr int beyond = 2, rows = block_cells + 2 * beyond; // two rows beyond the block take part
   Lanes mass[rows], evenness[rows];
   for (int k = 0; k < rows; ++k) mass[k] = at.of(g.linked_mass, k - beyond, part);
@@ -112,7 +93,7 @@ void correct_inertia(Grid& g)
   g.for_each_block(
       [&](int block)
       {
-        for (int part = 0; part < parts; ++part) correct_part(g, block, part);
+        for (int part = 0; part < NodeRows::parts; ++part) correct_part(g, block, part);
       });
 }
 } // namespace mpm

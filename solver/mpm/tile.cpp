@@ -1,6 +1,6 @@
 #include "solver/mpm/tile.hpp"
 
-#include "solver/mpm/simd.hpp"
+#include "solver/mpm/node_rows.hpp"
 
 namespace mpm
 {
@@ -56,28 +56,23 @@ void add_tile(const Grid& grid, const Neighbours& around, const PairTile& tile, 
 
 void read_tile(const Grid& grid, const Neighbours& around, const NodeField& field, Tile& tile)
 {
-  constexpr int parts = block_cells / lanes; // vectors in a row of a block
+  constexpr int parts = NodeRows::parts;
   static_assert(tile_margin == 2 && tile_stride == 2 * block_cells);
+  const NodeRows rows{around};
   for (int k = 0; k < tile_nodes; ++k)
   {
-    const int row = k - tile_margin, y = row < 0 ? 0 : row < block_cells ? 1 : 2;
+    const int row = k - tile_margin;
     double* const to = &tile.value[k * tile_stride];
-    const auto part_of = [&](int x, int part)
-    {
-      const int block = around[3 * y + x];
-      return block < 0 ? Lanes{}
-                       : load_as<Lanes>(
-                             &field[block * block_nodes + within_block(row) * block_cells + part * lanes]);
-    };
     if (grid.wrapped)
     {
-      for (int part = 0; part < 2 * parts; ++part) store(to + part * lanes, part_of(1, 0)[0] - Lanes{});
+      for (int part = 0; part < 2 * parts; ++part)
+        store(to + part * lanes, rows.of(field, row, 0)[0] - Lanes{});
       continue;
     }
-    Lanes before = part_of(0, parts - 1); // its last two nodes are the row's first
+    Lanes before = rows.of(field, row, -1); // its last two nodes are the row's first
     for (int part = 0; part < 2 * parts; ++part)
     {
-      const Lanes next = part_of(1 + part / parts, part % parts);
+      const Lanes next = rows.of(field, row, part);
       store(to + part * lanes, two_before(before, next));
       before = next;
     }

@@ -217,8 +217,10 @@ void print_keys(const std::string& path)
 }
 
 /// Answers --print-record, without a case.
-void print_record(const Options& options)
+void print_record(const CLI::App& app, const Options& options)
 {
+  for (const std::string name : {"CASE", "--vertical", "--vertical-component", "--scale", "--out", "--from"})
+    if (app.count(name)) refuse(name, "does not go with --print-record, which prints the record as it is");
   if (options.motion.empty()) refuse("--print-record", "prints the record of --motion; give --motion FILE");
   RecordSource source{.file = options.motion, .dt = options.record_dt, .unit = options.record_unit};
   source.component = options.record_component;
@@ -295,7 +297,7 @@ try
   if (typed.print_record)
   {
     read_values(app, typed, options);
-    print_record(options);
+    print_record(app, options);
     return exit_code::done;
   }
   if (!app.count("CASE")) refuse("CASE", "is missing: give a case file; see --help");
