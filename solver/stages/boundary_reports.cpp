@@ -50,19 +50,24 @@ void warn_of_unlike_columns(Session& session, const Model& model)
   }
 }
 
-void report_boundaries(Session& session, const Model& model)
+void report_sides(Session& session, const Model& model)
 {
-  report_base(session, model);
   for (const FreeFieldSide* side : model.sides)
   {
     const double apart = side->separation(model.main->particles);
-    session.log.info("{} side: up to {:.3f} m apart from its column at the end", side->name(), apart);
+    session.log.info("{} side: ends up to {:.3f} m apart from its column", side->name(), apart);
     if (apart > apart_limit * session.case_file.grid.spacing)
       session.log.warn(
           "the {} side and its free-field column have moved {:.2f} m apart, more than half a cell: the "
           "model yields or sinks near its side; widen the domain or deepen the rock",
           side->name(), apart);
   }
+}
+
+void report_boundaries(Session& session, const Model& model)
+{
+  report_base(session, model);
+  report_sides(session, model);
   // Ground that yields in its column yields everywhere beyond: no failure of the slope, and worth knowing.
   for (const Edge side : both_sides)
   {

@@ -9,6 +9,10 @@ namespace mpm
 /// Tells where the model's side and its column do not agree before the shaking.
 void warn_of_unlike_columns(Session& session, const Model& model);
 
+/// How far the sides stand from their columns now; warns where that is too far, which is also what makes runs
+/// diverge.
+void report_sides(Session& session, const Model& model);
+
 /// Where base and sides stand at the end, against free field and columns, and which columns yield; warns
 /// where that is too far.
 void report_boundaries(Session& session, const Model& model);

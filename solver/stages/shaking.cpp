@@ -77,6 +77,7 @@ int Shaking::run(Clock& clock, Start start)
   }
   catch (const Diverged& error)
   {
+    report_sides(session_, model_); // ground that leaves its side may be why
     observer_.write(applied_until(clock));
     summary.finish(exit_code::diverged, facts(clock));
     throw after_steps(error, clock);

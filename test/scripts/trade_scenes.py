@@ -141,6 +141,7 @@ KNOBS = {
 }
 OF_SLIDES = {
     "filter strain 0": ("seismic.filter.strain=0",),
+    "filter strain 0.003": ("seismic.filter.strain=0.003",),
     "filter strain 0.01": ("seismic.filter.strain=0.01",),
     "softening local": ("grid.softening=local",),
     "volumes averaged": ("grid.volume_average=cell",),
