@@ -20,7 +20,9 @@ constexpr double drift = 0.05;     // of PGV
 constexpr double far_off = 0.10;   // m
 constexpr double at_rest = 1e-3;   // of PGV
 constexpr double greatest_pga = 3; // g; the greatest ever recorded is 4 g
-constexpr double least_pga = 1e-4; // g; below it nobody feels an earthquake
+// No slope feels less, and a record of up to 1 g whose values are taken for cm/s2 has less.
+constexpr double least_pga = 1e-3; // g
+constexpr double least_pgv = 1e-4; // m/s
 
 /// A measure and what is usual for it.
 struct Measure
@@ -30,7 +32,7 @@ struct Measure
   const char* unit;
 };
 
-/// ", more than 3 g" or ", less than 1e-4 g"; empty: usual.
+/// ", more than 3 g" or ", less than 0.001 g"; empty: usual.
 std::string beyond(const Measure& m)
 {
   const bool more = m.value > m.most;
@@ -59,7 +61,7 @@ std::string implausible(const Record& record, const MotionProcessing& processing
                                 {"the length of", record.dt * (samples - 1), 1, 1000, " s"}};
   if (processing.scale != 0)
     measures.insert(measures.end(), {{"PGA", in_g(m.pga), least_pga, greatest_pga, " g"},
-                                     {"PGV", m.pgv, 1e-5, 4, " m/s"},
+                                     {"PGV", m.pgv, least_pgv, 4, " m/s"},
                                      {"PGD", m.pgd, 0, 10, " m"}});
   std::string all;
   for (const Measure& measure : measures)

@@ -130,6 +130,8 @@ void warn_of_settings(Case& case_file)
   const double t = case_file.seismic.duration;
   if (!(t > 0)) return; // it has none, or goes with its record, which is judged itself
   warn_outside(case_file, "seismic.duration", t, 0.1, 3600, "s", "is it in s, min or h?");
+  warn_outside(case_file, "seismic.rest_below", case_file.seismic.rest_below, 0, 0.01, "m/s",
+               "a slide that is slower comes to rest; is it in mm/s, cm/s or m/s?");
   // Each frame is a file of its own.
   const double frames = t / case_file.output.frames.every;
   if (frames > 10000)

@@ -169,6 +169,8 @@ std::optional<PeerHeader> peer_header(const RecordSource& source, const std::vec
     if (npts == text.npos) continue;
     if (!candidate || dt != text.npos) candidate = &lines[i];
     if (dt == text.npos) continue;
+    if (find_word(text, "dt", dt + 2) != text.npos || find_word(text, "npts", npts + 4) != text.npos)
+      refuse(source, lines[i], "states NPTS or DT twice; mend the header");
     auto header = words_first(source, lines[i], i, npts, dt);
     if (!header) header = numbers_first(source, lines[i], i, dt);
     if (!header || header->count == 0) continue;

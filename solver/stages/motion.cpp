@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 namespace mpm
 {
@@ -213,6 +214,17 @@ void check_samples(const Session& session, const IncomingWave& wave)
           duration, step, most_samples));
 }
 
+/// Whether two motions are one record, however scaled.
+bool are_one(const GroundMotion& a, const GroundMotion& b)
+{
+  if (a.dt != b.dt || a.acceleration.size() != b.acceleration.size()) return false;
+  const auto product = [](const GroundMotion& p, const GroundMotion& q)
+  { return std::inner_product(p.acceleration.begin(), p.acceleration.end(), q.acceleration.begin(), 0.0); };
+  const double shared = product(a, b);
+  constexpr double rounding = 1e-9;
+  return shared != 0 && shared * shared >= (1 - rounding) * product(a, a) * product(b, b);
+}
+
 /// `seismic.duration: record + 10 s`: the run's length is known when the records are.
 void settle_duration(Session& session, const IncomingWave& wave)
 {
@@ -263,6 +275,9 @@ Motion load_motion(Session& session)
   {
     wave.horizontal = load(session, "horizontal", settings.horizontal, options.motion, motion);
     wave.vertical = load(session, "vertical", settings.vertical, options.vertical, motion);
+    if (wave.horizontal && wave.vertical && are_one(*wave.horizontal, *wave.vertical))
+      session.log.warn("motion: horizontal and vertical are the same record: the ground is shaken along one "
+                       "line; is the vertical one another component's?");
     wave.fade = planned_fade(settings);
     settle_duration(session, wave);
     check_samples(session, wave);

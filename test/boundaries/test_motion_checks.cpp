@@ -60,7 +60,7 @@ Record retimed(Record record, double dt)
 
 TEST_CASE("a usual motion is not warned of", "[boundaries]")
 {
-  for (const double peak : {0.01, 1.0, 10.0}) CHECK(warnings(packet(peak)).empty());
+  for (const double peak : {0.02, 1.0, 10.0}) CHECK(warnings(packet(peak)).empty());
   for (const Baseline baseline : {Baseline::none, Baseline::quadratic, Baseline::cubic})
     CHECK(warnings(packet(2), 1, baseline).empty());
   CHECK(warnings(packet(2, 0.001, 30001)).empty());
@@ -69,8 +69,10 @@ TEST_CASE("a usual motion is not warned of", "[boundaries]")
 TEST_CASE("a motion out of the usual range is warned of by name and value, as scaled", "[boundaries]")
 {
   CHECK_THAT(warnings(packet(300)), Contains("PGA 30.4") && Contains("more than 3 g") && Contains("'g'"));
-  CHECK_THAT(warnings(packet(5e-4)), Contains("PGA 5.0") && Contains("less than 0.0001 g"));
-  CHECK_THAT(warnings(packet(3), 1e-6), Contains("less than 0.0001 g") && Contains("scale of 1e-06"));
+  CHECK_THAT(warnings(packet(5e-4)), Contains("PGA 5.0") && Contains("less than 0.001 g"));
+  CHECK_THAT(warnings(packet(3), 1 / standard_gravity / 100),
+             Contains("less than 0.001 g")); // g taken for cm/s2
+  CHECK_THAT(warnings(packet(3), 1e-6), Contains("less than 0.001 g") && Contains("scale of 1e-06"));
   CHECK_THAT(warnings(packet(3), 100),
              Contains("more than 3 g") && Contains("PGV") && Contains("scale of 100"));
   CHECK_THAT(warnings(retimed(packet(3), 10)), Contains("time step of 10 s is more than 0.05 s") &&
@@ -86,7 +88,7 @@ TEST_CASE("a motion out of the usual range is warned of by name and value, as sc
 TEST_CASE("a wrong unit that the scale hides is warned of", "[boundaries]")
 {
   CHECK_THAT(warnings(packet(300), 0.01), Contains("30.4") && Contains("before scaling") && Contains("'g'"));
-  CHECK_THAT(warnings(packet(5e-4), 1e4), Contains("less than 0.0001 g") && Contains("before scaling"));
+  CHECK_THAT(warnings(packet(5e-4), 1e4), Contains("less than 0.001 g") && Contains("before scaling"));
 }
 
 TEST_CASE("a scale of 0 is told as what it is, and nothing else of that motion", "[boundaries]")

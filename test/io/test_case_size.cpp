@@ -83,6 +83,8 @@ TEST_CASE("Values that no ground has are warned of with what is usual", "[io]")
   CHECK_THAT(with("static.ramp=10 ms"), Contains("static.ramp: 0.01 s is shorter than"));
   CHECK_THAT(with("grid.spacing=5 m"), Contains("the ground is 2 cells high"));
   CHECK_THAT(with("seismic={duration: 20 ms}"), Contains("seismic.duration: 0.02 s"));
+  CHECK_THAT(with("seismic={duration: 20 s, rest_below: 1 m/s}"), Contains("seismic.rest_below: 1 m/s"));
+  CHECK(with("seismic={duration: 20 s, rest_below: 1 mm/s}").empty());
   const std::string clay =
       "{model: von_mises, density: 1800 kg/m3, young_modulus: 40 MPa, poisson_ratio: 0.45, ";
   CHECK(warned(small, {"materials.soil=" + clay + "strength: {peak: 80 kPa}}"}).empty());

@@ -166,6 +166,8 @@ TEST_CASE("NPTS and DT are taken from the line that gives both", "[io]")
   CHECK(parse_record("NPTS AND DT BELOW, WIDTH 3\n" + tail, source_of()).dt == 0.01);
   CHECK(parse_record("UNITS OF G\nNPTS= 2, WIDTH= 3, DT= .01 SEC\n1 2\n", source_of()).dt == 0.01);
   CHECK_THAT(refusal("NPTS= 2, DT= .02 SEC\n" + tail, source_of()), Contains("otherwise than line 1"));
+  for (const char* twice : {"NPTS= 2, DT= .01 SEC, DT= .005 SEC", "NPTS= 2, DT= .01 SEC, NPTS= 3"})
+    CHECK_THAT(refusal(std::string("UNITS OF G\n") + twice + "\n1 2\n", source_of()), Contains("twice"));
   CHECK_THAT(refusal("UNITS OF G\nSAMPLING RATE: 200 HZ\n" + tail, source_of()),
              Contains("r.AT2:2: states a time step of 0.005 s"));
   CHECK(parse_record("UNITS OF G\nSAMPLING RATE: 100 HZ\n" + tail, source_of()).dt == 0.01);

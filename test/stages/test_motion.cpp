@@ -68,6 +68,23 @@ TEST_CASE("two records of different steps are both held sample by sample", "[sta
   for (std::size_t i = 0; i <= 120; ++i) REQUIRE(a[2 * 2 * i + 1] == Approx(0.5 * up[i]).margin(1e-12));
 }
 
+TEST_CASE("one record in both directions is warned of, however it is scaled", "[stages]")
+{
+  const Block b;
+  put(b / "twice.txt", sine(2, 5));
+  put(b / "once.txt", sine(1, 5));
+  put(b / "other.txt", sine(1, 7));
+  const auto said = [&](const std::string& vertical)
+  {
+    const Ending ending = b.run("with-" + vertical, {"--motion", b / "twice.txt", "--vertical", b / vertical,
+                                                     "--record-dt", "0.01", "--record-unit", "m/s2"});
+    REQUIRE(ending.code == 0);
+    return ending.said;
+  };
+  CHECK_THAT(said("once.txt"), Contains("horizontal and vertical are the same record"));
+  CHECK_THAT(said("other.txt"), !Contains("the same record"));
+}
+
 TEST_CASE("a run reports what it applies of a record that goes on longer, and warns", "[stages]")
 {
   const Block b;
