@@ -62,7 +62,8 @@ GridSettings read_grid(Section grid)
                      {"none", "cell"}) == 1;
   settings.interfaces = static_cast<Interfaces>(grid.choice_or(
       1,
-      {"interfaces", "averaged: particles within 3/4 of a cell of an interface have averaged elastic moduli"},
+      {"interfaces", "averaged: particles within 3/4 of a cell of an interface have averaged elastic moduli, "
+                     "and those that cannot yield the law of the ground that can"},
       {"sharp", "averaged"}));
   return settings;
 }

@@ -16,7 +16,7 @@
 namespace mpm::checkpoint
 {
 /// The version of the layout. A state of another one is refused.
-inline constexpr std::string_view schema = "seismpm-checkpoint/5";
+inline constexpr std::string_view schema = "seismpm-checkpoint/6";
 
 // Objects of the root.
 inline constexpr const char *case_text = "case", *case_resolved = "case_resolved", *overrides = "overrides",

@@ -80,6 +80,19 @@ private:
   std::vector<std::size_t> begin_; ///< first seed of each column, and one past the last
 };
 
+/// Index of the material whose law a mixture has. Under one traction the ground at an interface is no
+/// stronger than the weaker side, so that a material that cannot yield takes the law of what can, of most of
+/// it.
+int giver_of_law(const std::vector<Material>& materials, int own, const std::vector<int>& shares)
+{
+  const auto yields = [&](int m) { return materials[m].model() != Elastic::model; };
+  int result = own;
+  for (int m = 0; m < static_cast<int>(shares.size()); ++m)
+    if (!yields(own) && yields(m) && shares[m] > 0 && (result == own || shares[m] > shares[result]))
+      result = m;
+  return result;
+}
+
 /// A material with the moduli of a mixture, harmonic means of G and of M = lambda + 2 G:
 /// 1/G = sum s_m / G_m, 1/M = sum s_m / M_m; itself if its law does not admit them.
 Material mix(const std::vector<Material>& materials, int own, const std::vector<int>& shares, double spacing)
@@ -92,19 +105,24 @@ Material mix(const std::vector<Material>& materials, int own, const std::vector<
     pressure += shares[m] / (levels * law.p_modulus());
   }
   const double G = 1 / shear, lame = 1 / pressure - 2 * G, poisson = lame / (2 * (lame + G));
-  Material result = materials[own];
-  result.origin = own;
+  const int giver = giver_of_law(materials, own, shares);
+  Material result = materials[giver];
+  result.origin = giver;
   const bool admitted = std::visit(
       [&](auto& law)
       {
+        law.density = materials[own].elastic().density;
         law.young = 2 * G * (1 + poisson);
         law.poisson = poisson;
         return law.resolve(spacing).empty();
       },
       result.law);
-  if (!admitted) result.law = materials[own].law;
+  if (admitted) return result;
+  result = materials[own];
+  result.origin = own;
   return result;
 }
+
 /// Index of the material at a point of the undeformed ground, which goes on beyond its edges as it is there;
 /// -1 where there is none at all.
 int material_at(const Case& case_file, double x, double y)

@@ -8,10 +8,12 @@ namespace mpm
 /// Gives particles near an interface elastic moduli averaged over their surroundings, in compliance (1/G and
 /// 1/M, as of layers under one traction; Backus, JGR 67 (1962)): smooth splines cannot follow the jump of
 /// strain at a jump of stiffness, and answer too stiffly there, an error of order 1 in the cell size. The
-/// weight is a hat of 3/4 of a cell to each side in both directions, over the ground that there is. Density,
-/// strength and history stay the material's own. `materials` grows by one for each mixture, in steps of
-/// 1/32; its Material::origin tells whose it is. A law that would not admit the mixture's moduli keeps
-/// its own.
+/// weight is a hat of 3/4 of a cell to each side in both directions, over the ground that there is. Density
+/// stays the material's own, and so does the law, but where ground that cannot yield borders on ground that
+/// can: as of layers under one traction the mixture is as strong as the weaker, and has its law. Without this
+/// the rock's nodes hold the lowest cell of a slide on it, which has to flow within its own cells then.
+/// `materials` grows by one for each mixture, in steps of 1/32; its Material::origin tells whose law it has.
+/// A law that would not admit the mixture's moduli is left for the particle's own.
 void average_interfaces(const Case& case_file, std::vector<Seed>& seeds, std::vector<Material>& materials);
 
 /// The kink of the ground's motion at a point (m) of the undeformed ground, which averaged interfaces and the
