@@ -30,7 +30,8 @@ struct Material
   std::vector<std::vector<double>> state;
   /// Inertial over gravitational mass: 1, but where a static stage scales masses to settle in fewer steps.
   double mass_scale = 1;
-  int origin = -1; ///< of a mixture at an interface: index of the material whose law it has; -1: it is none
+  int origin = -1; ///< of a mixture at an interface: index of the material that it belongs to; -1: it is none
+  int law_of = -1; ///< of a mixture: index of the material whose law it has, its own or what it borders on
 
   const Elastic& elastic() const
   {

@@ -8,6 +8,7 @@ from scipy.ndimage import distance_transform_edt, label, maximum
 from scipy.spatial import cKDTree
 
 from plot_common import WIDTH, Missing, array, text, titled
+from settings import settings_of
 
 PIXELS = 1400  # across a section
 MOST_STRAIN = 0.3  # top of the colour scale of plastic strain
@@ -28,9 +29,19 @@ def read_particles(path, *fields):
             particles["material"] = file["particles/material"][...]
             if "material_names" in file:
                 particles["material_names"] = [text(name) for name in file["material_names"][...]]
+                particles["elastic"] = np.isin(particles["material"], elastic(path.parent, particles["material_names"]))
         elif isinstance(file.get("materials"), h5py.Group):
             add_materials(particles, file["materials"])
     return particles
+
+
+def elastic(folder, names):
+    """Indices of the materials that a run's case calls elastic; none where the folder does not tell."""
+    try:
+        settings = settings_of(folder)
+    except OSError:
+        return []
+    return [k for k, name in enumerate(names) if settings.get(f"materials.{name}.model") == "elastic"]
 
 
 def add_materials(particles, group):
@@ -143,11 +154,15 @@ def colour_bar(figure, axes, panels, label, aspect):
 
 
 def without_strain(sections):
-    """Per section, the particles of materials that have no plastic strain in any of the sections."""
+    """Per section, the particles of materials that have no plastic strain in any of the sections.
+
+    Elastic ground has the law of softer ground that it borders on, within a cell, and there it may have strain.
+    """
     if "material" not in sections[0]:
         return [~np.isfinite(p["plastic_strain"]) for p in sections]
     strained = {m for p in sections for m in np.unique(p["material"][np.nan_to_num(p["plastic_strain"]) > 0.0])}
-    return [~np.isin(p["material"], list(strained)) for p in sections]
+    return [~np.isin(p["material"], list(strained)) | p.get("elastic", False) & (np.nan_to_num(p["plastic_strain"]) <= 0.0)
+            for p in sections]
 
 
 def top_of(fields, percentile):

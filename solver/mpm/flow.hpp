@@ -55,16 +55,17 @@ private:
   std::vector<char> act_, near_; ///< by occupied block
 };
 
-/// The particles of one material and of its mixtures at interfaces (Material::origin), as one ground.
+/// The particles of one material and of mixtures at interfaces that have its law (Material::law_of), as one
+/// ground.
 class Ground
 {
 public:
-  Ground(const Domain& domain, int origin) : domain_(domain), is_(domain.materials.size())
+  Ground(const Domain& domain, int material) : domain_(domain), is_(domain.materials.size())
   {
     for (std::size_t m = 0; m < is_.size(); ++m)
     {
-      const int of = domain.materials[m].origin;
-      is_[m] = (of < 0 ? static_cast<int>(m) : of) == origin;
+      const int of = domain.materials[m].law_of;
+      is_[m] = (of < 0 ? static_cast<int>(m) : of) == material;
     }
   }
   bool holds(int material) const { return is_[material]; }

@@ -105,9 +105,10 @@ Material mix(const std::vector<Material>& materials, int own, const std::vector<
     pressure += shares[m] / (levels * law.p_modulus());
   }
   const double G = 1 / shear, lame = 1 / pressure - 2 * G, poisson = lame / (2 * (lame + G));
-  const int giver = giver_of_law(materials, own, shares);
-  Material result = materials[giver];
-  result.origin = giver;
+  Material result = materials[own];
+  result.origin = own;
+  result.law_of = giver_of_law(materials, own, shares);
+  result.law = materials[result.law_of].law;
   const bool admitted = std::visit(
       [&](auto& law)
       {
@@ -118,8 +119,8 @@ Material mix(const std::vector<Material>& materials, int own, const std::vector<
       },
       result.law);
   if (admitted) return result;
-  result = materials[own];
-  result.origin = own;
+  result.law = materials[own].law;
+  result.law_of = own;
   return result;
 }
 

@@ -12,8 +12,9 @@ namespace mpm
 /// stays the material's own, and so does the law, but where ground that cannot yield borders on ground that
 /// can: as of layers under one traction the mixture is as strong as the weaker, and has its law. Without this
 /// the rock's nodes hold the lowest cell of a slide on it, which has to flow within its own cells then.
-/// `materials` grows by one for each mixture, in steps of 1/32; its Material::origin tells whose law it has.
-/// A law that would not admit the mixture's moduli is left for the particle's own.
+/// `materials` grows by one for each mixture, in steps of 1/32; its Material::origin tells whose it is,
+/// and Material::law_of whose law it has. A law that would not admit the mixture's moduli is left for its
+/// own.
 void average_interfaces(const Case& case_file, std::vector<Seed>& seeds, std::vector<Material>& materials);
 
 /// The kink of the ground's motion at a point (m) of the undeformed ground, which averaged interfaces and the

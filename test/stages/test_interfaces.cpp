@@ -94,7 +94,7 @@ TEST_CASE("Rock beside clay has the clay's law within reach of the interface, an
   for (const Material& material : ground.materials)
   {
     if (material.origin < 0) continue;
-    CHECK(material.origin == 1);
+    CHECK(material.law_of == 1);
     const auto& law = std::get<VonMises>(material.law);
     CHECK(law.peak == clay.peak);
     CHECK(law.softening_strain == clay.softening_strain);
@@ -104,7 +104,7 @@ TEST_CASE("Rock beside clay has the clay's law within reach of the interface, an
   {
     const Material& material = ground.materials[seed.material];
     CHECK(material.elastic().density == (seed.y > 10.15 ? 1800 : 2200));
-    rims += seed.y < 10.15 && material.origin == 1;
+    rims += material.origin == 0 && material.law_of == 1;
     if (seed.y < 9.2) CHECK(seed.material == 0);
   }
   CHECK(rims > 0);
@@ -115,8 +115,7 @@ TEST_CASE("Rock beside clay has the clay's law within reach of the interface, an
   {
     const Mixed own = mixed(case_from(text));
     for (const Seed& seed : own.seeds)
-      if (const int origin = own.materials[seed.material].origin; origin >= 0)
-        CHECK(origin == (seed.y > 10.15));
+      if (const int giver = own.materials[seed.material].law_of; giver >= 0) CHECK(giver == (seed.y > 10.15));
   }
 }
 
